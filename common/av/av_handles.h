@@ -12,7 +12,7 @@ extern "C" {
 
 namespace vantage {
 
-// FFmpeg's objects under ownership.
+// Owning pointers to FFmpeg's objects.
 
 struct AvCodecContextDeleter {
     void operator()(AVCodecContext* context) const { avcodec_free_context(&context); }
@@ -38,7 +38,7 @@ struct AvBufferDeleter {
 struct AvInputDeleter {
     void operator()(AVFormatContext* context) const { avformat_close_input(&context); }
 };
-/// Closes the file too, where one is open.
+/// Closes the output file, too, if one is open.
 struct AvOutputDeleter {
     void operator()(AVFormatContext* context) const {
         if (context->pb) avio_closep(&context->pb);
@@ -56,7 +56,7 @@ using SwrContextPtr = std::unique_ptr<SwrContext, SwrContextDeleter>;
 using AvBufferPtr = std::unique_ptr<AVBufferRef, AvBufferDeleter>;
 using AvOutputPtr = std::unique_ptr<AVFormatContext, AvOutputDeleter>;
 
-/// FFmpeg's reason for a negative return value.
+/// FFmpeg's message for a negative return value.
 std::string av_reason(int code);
 
 }  // namespace vantage

@@ -4,11 +4,11 @@
 
 namespace vantage {
 
-/// From now on, in the whole process, what FFmpeg complains about is kept for take_av_remark() and
-/// goes to the log at its level `debug` only: its return values are often less than half the story.
+/// Redirects FFmpeg's log of the whole process: messages are kept for take_av_remark() and logged
+/// at level `debug` only. FFmpeg's return values alone often do not explain a fault.
 void keep_av_log();
 
-/// What FFmpeg complained about last on this thread since the last call; empty: nothing.
+/// FFmpeg's last message on this thread since the last call; empty if none.
 std::string take_av_remark();
 
 }  // namespace vantage

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t rate = sound_rate_hz;
 
-/// Catmull and Rom's curve through four samples, between the middle two.
+/// Catmull-Rom interpolation between the middle two of four samples.
 float between(float before, float a, float b, float after, float share) {
     const float slope_a = 0.5F * (b - before), slope_b = 0.5F * (after - a);
     const float c = 3 * (b - a) - 2 * slope_a - slope_b, d = 2 * (a - b) + slope_a + slope_b;
@@ -29,7 +29,7 @@ TaiTime time_of_sound(std::int64_t sample) {
 }
 
 std::int64_t SoundGrid::first_of(std::int64_t tick) const {
-    // Whole seconds of the fraction first, so that years of ticks stay exact.
+    // Whole seconds of the fraction first, so that the result stays exact for years of ticks.
     const std::int64_t whole = tick / rate_.pulses, rest = tick % rate_.pulses;
     return whole * rate_.seconds * rate + rest * rate_.seconds * rate / rate_.pulses;
 }

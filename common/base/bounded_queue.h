@@ -11,14 +11,15 @@
 
 namespace vantage {
 
-/// A queue between two threads that never grows past its capacity: when it is full, push drops the
-/// OLDEST item and counts it. close() wakes the reader; items pushed before it can still be popped.
+/// A thread-safe queue of bounded capacity between two threads. When the queue is full, push()
+/// drops the OLDEST item and counts it. close() wakes the reader, which can still pop the items
+/// that were pushed before.
 template <class T>
 class BoundedQueue {
   public:
     explicit BoundedQueue(std::size_t capacity) : capacity_(capacity > 0 ? capacity : 1) {}
 
-    /// Returns the item that had to make room, if any.
+    /// Adds an item; returns the item that was dropped to make room, if any.
     std::optional<T> push(T item) {
         std::optional<T> dropped;
         {
@@ -35,7 +36,7 @@ class BoundedQueue {
         return dropped;
     }
 
-    /// Waits for an item; empty once the time is up, or once the queue is closed and drained.
+    /// Waits for an item. Empty after the timeout, or once the queue is closed and drained.
     std::optional<T> pop_for(std::chrono::nanoseconds timeout) {
         std::unique_lock lock(mutex_);
         ready_.wait_for(lock, timeout, [&] { return closed_ || !items_.empty(); });
@@ -47,8 +48,7 @@ class BoundedQueue {
         return item;
     }
 
-    /// Waits until a push would drop nothing; false once the time is up, or when the queue is
-    /// closed.
+    /// Waits until a push would drop nothing. False after the timeout, or when the queue is closed.
     bool wait_for_room(std::chrono::nanoseconds timeout) {
         std::unique_lock lock(mutex_);
         return room_.wait_for(lock, timeout, [&] {

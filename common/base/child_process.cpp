@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-/// As exec wants them: ended by a null pointer.
+/// The argument list in the form that exec() takes: ended by a null pointer.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -37,13 +37,13 @@ UniqueFd open_to_write(const std::filesystem::path& file) {
 ChildProcess::ChildProcess(const Settings& settings) : patience_(settings.patience) {
     std::vector<std::string> words = {settings.program.string()};
     words.insert(words.end(), settings.arguments.begin(), settings.arguments.end());
-    // The first of two variables of one name counts.
+    // Where a variable occurs twice, the first one counts.
     std::vector<std::string> variables = settings.environment;
     for (char** variable = environ; *variable; ++variable) variables.emplace_back(*variable);
     std::vector<char*> argv = pointers_to(words), envp = pointers_to(variables);
     const UniqueFd in(::open("/dev/null", O_RDONLY | O_CLOEXEC)), out = open_to_write(settings.out),
                                                                   err = open_to_write(settings.err);
-    // Says why the program could not be started; closed by itself where it could.
+    // Carries errno from a failed exec() to the parent. A successful exec() closes it.
     int report[2];
     if (::pipe2(report, O_CLOEXEC) != 0) fail("cannot start a program: {}", std::strerror(errno));
     const UniqueFd reads(report[0]);
@@ -51,7 +51,7 @@ ChildProcess::ChildProcess(const Settings& settings) : patience_(settings.patien
     const pid_t parent = ::getpid();
     pid_ = ::fork();
     if (pid_ == 0) {
-        // Nothing here may take a lock that another thread had.
+        // Between fork() and exec() nothing may take a lock that another thread may have held.
         ::setpgid(0, 0);
         ::prctl(PR_SET_PDEATHSIG, SIGTERM);
         if (::getppid() != parent) ::_exit(1);

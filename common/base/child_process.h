@@ -10,29 +10,29 @@
 
 namespace vantage {
 
-/// Another program, in a process group of its own: what interrupts this program at a terminal
-/// leaves it alone. It ends with the thread that started it, whatever ends that.
+/// A child process in a process group of its own, so that Ctrl-C at the terminal does not reach it.
+/// It is killed when the thread that started it ends, for whatever reason.
 class ChildProcess {
   public:
     struct Settings {
         std::filesystem::path program;
         std::vector<std::string> arguments{};
-        std::filesystem::path out{}, err{};        ///< files that it writes to; empty: nowhere
-        std::vector<std::string> environment{};    ///< "NAME=VALUE", over this process's own
-        int niceness = 0;                          ///< added to this process's own
-        std::chrono::milliseconds patience{5000};  ///< from being asked to end to being killed
+        std::filesystem::path out{}, err{};        ///< files for its output; empty: /dev/null
+        std::vector<std::string> environment{};    ///< "NAME=VALUE", added to this environment
+        int niceness = 0;                          ///< added to this process's niceness
+        std::chrono::milliseconds patience{5000};  ///< from SIGTERM to SIGKILL
     };
-    /// Throws Error if it cannot be started.
+    /// Starts the program. Throws Error if it cannot be started.
     explicit ChildProcess(const Settings& settings);
-    /// Asks it to end (SIGTERM), and kills it where it does not in time.
+    /// Sends SIGTERM, and SIGKILL if the process does not end within `patience`.
     ~ChildProcess();
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
 
     void send_signal(int signal) const;
-    /// Waits for its end; 128 + n where signal n ended it.
+    /// Waits for the end and returns the exit status; 128 + n where signal n ended the process.
     int wait();
-    /// As wait(), if it has ended.
+    /// The exit status as from wait(), if the process has ended. Never waits.
     std::optional<int> ended();
 
   private:
@@ -43,7 +43,7 @@ class ChildProcess {
     std::optional<int> status_;
 };
 
-/// The folder of the running program.
+/// The folder that holds the executable of this process.
 std::filesystem::path program_folder();
 
 }  // namespace vantage

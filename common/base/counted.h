@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-/// "1 corner", "2 corners": a count with its noun, whose plural takes an s.
+/// A count with its noun, whose plural ends in s: "1 corner", "2 corners".
 inline std::string counted(std::size_t count, std::string_view noun) {
     return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
 }

@@ -8,17 +8,16 @@
 
 namespace vantage {
 
-/// What a user, a file, a device or the network can cause. what() is one clear sentence for a
-/// person: it names the thing, the limit it broke and the mend. Thrown where the fault is found and
-/// caught at the edges only: main(), the top of a thread, and the boundary of one message in a
-/// message loop. Programming mistakes are asserts, never an Error.
+/// A fault that a user, a file, a device or the network caused. what() is one clear sentence that
+/// names the thing, the limit and the mend. Errors are caught at the edges only: in main(), at the
+/// top of a thread, and around one message of a message loop. Programming mistakes are asserts.
 class Error : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;
 };
 
-/// The work was done, and what it was to find out cannot be told from what there is: a status of
-/// its own (run_program), so that nobody's script takes it for a yes or for a fault.
+/// A check ran, but its input does not decide the question. It has an exit status of its own
+/// (run_program), so that scripts do not mistake it for a pass or a fault.
 class Undecided : public Error {
   public:
     using Error::Error;

@@ -36,7 +36,7 @@ std::string_view level_name(LogLevel level) {
     return "";
 }
 
-/// systemd.exec(5): JOURNAL_STREAM has device and inode of the stream that goes to the journal.
+/// systemd.exec(5): JOURNAL_STREAM names the device and inode of the stream to the journal.
 bool stderr_is_the_journal() {
     const char* stream = std::getenv("JOURNAL_STREAM");
     struct stat file {};
@@ -53,7 +53,7 @@ std::string time_of_day() {
                        now.tv_nsec / 1'000'000);
 }
 
-/// The one thing of the process that every thread adds to; a log is one by its nature.
+/// The newest log lines of the process, shared by all threads.
 struct RecentLines {
     std::mutex mutex;
     std::deque<std::string> lines;

@@ -11,19 +11,19 @@ namespace vantage {
 
 enum class LogLevel { debug, info, warning, error };
 
-/// Writes one line to stderr, "hh:mm:ss.mmm name: level: text", by the clock on the wall; without
-/// the time where stderr is systemd's journal, which has it. One write(2) a line, so lines of
-/// several threads and processes never mix. Results go to stdout, everything else through here.
+/// Writes one line to stderr: "hh:mm:ss.mmm name: level: text", in local time. The time is omitted
+/// where stderr is systemd's journal, which adds its own. Each line is one write(2), so that lines
+/// of several threads and processes never mix. Results go to stdout, everything else through here.
 void log_line(LogLevel level, std::string_view text);
 
-/// The sentence that a program ends with: as a log line of an error, but without the time.
+/// Writes the sentence that a program ends with: an error line without the time.
 void say_error(std::string_view text);
 
-/// Lines below this level are not written. The default is info; the environment variable
-/// VANTAGE_LOG=debug|info|warning|error sets it at start.
+/// The lowest level that is written: info by default; the environment variable
+/// VANTAGE_LOG=debug|info|warning|error changes it.
 LogLevel log_threshold();
 
-/// The last lines that were written, oldest first, with their time: for who asks what happened.
+/// The newest lines with their times, oldest first, for bug reports.
 std::vector<std::string> recent_log_lines();
 inline constexpr std::size_t most_recent_lines = 300;
 

@@ -8,13 +8,13 @@
 
 namespace vantage {
 
-/// Lets a line about something that may come in floods be written once in a while, and counts what
-/// it stands for.
+/// Limits how often a log line about a frequent event is written, and counts the events between
+/// two lines.
 class LogLimiter {
   public:
     explicit LogLimiter(std::chrono::nanoseconds period) : period_(period) {}
 
-    /// It came `times` more. How often it came since the last line, if a line is due.
+    /// Counts `times` more events. If a line is due, returns the number of events since the last.
     std::optional<std::uint64_t> count(std::uint64_t times, MonotonicTime now) {
         since_ += times;
         if (since_ == 0 || (last_ && now - *last_ < period_)) return std::nullopt;

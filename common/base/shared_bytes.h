@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// Shared and never changed; may be null.
+/// Immutable bytes with shared ownership; may be null.
 using SharedBytes = std::shared_ptr<const std::vector<std::byte>>;
 
 }  // namespace vantage

@@ -2,16 +2,17 @@
 
 namespace vantage {
 
-/// Names the calling thread as `top -H` and debuggers show it, 15 letters at most. Threads that it
-/// begins take the name over until they have their own.
+/// Names the calling thread as `top -H` and debuggers show it, with at most 15 characters. Threads
+/// that it starts inherit the name until they set their own.
 void name_this_thread(const char* name);
 
-/// From now on the calling thread, and threads that it begins, leave the processor to those of less
-/// niceness where there is too little of it, from 0, as others, to 19. Cannot be taken back.
+/// Sets the niceness of the calling thread, and of threads that it starts later, from 0 to 19.
+/// Cannot be undone.
 void make_this_thread_nice(int niceness);
 
-/// From now on the calling thread, and threads that it begins, have a processor only while nobody
-/// else wants it: to who wakes up it counts as idle (SCHED_IDLE). Cannot be taken back.
+/// Schedules the calling thread, and threads that it starts later, only on otherwise idle
+/// processors (SCHED_IDLE). Unlike a high niceness, it never delays a thread that wakes up. Cannot
+/// be undone.
 void make_this_thread_idle();
 
 }  // namespace vantage

@@ -6,12 +6,12 @@
 
 namespace vantage {
 
-/// From the colours of one camera to those of the stage:
+/// A colour correction from a camera's colours to the stage's colours:
 ///
 ///   stage = encode(matrix * decode(camera) ^ tone)
 ///
-/// decode and encode are sRGB's transfer function and its inverse (IEC 61966-2-1), channel by
-/// channel; tone is an exponent a channel, for cameras whose response is not quite sRGB's.
+/// decode and encode are sRGB's transfer function and its inverse (IEC 61966-2-1) per channel. tone
+/// is one exponent per channel, for cameras whose response differs slightly from sRGB.
 struct ColourCorrection {
     Eigen::Matrix3d matrix = Eigen::Matrix3d::Identity();
     Eigen::Vector3d tone = Eigen::Vector3d::Ones();
@@ -22,16 +22,17 @@ struct ColourCorrection {
     bool operator==(const ColourCorrection& other) const {
         return matrix == other.matrix && tone == other.tone;
     }
-    /// Throws Error naming what cannot be: tones outside 0.2 to 5, entries beyond 10, not finite.
+    /// Throws Error naming a value outside its range: tones 0.2 to 5, matrix entries -10 to 10.
     void validate() const;
 
-    /// sRGB-coded R, G, B in 0 to 1, to the same; clamped.
+    /// Corrects one sRGB colour; R, G and B are in 0 to 1 and clamped to it.
     Eigen::Vector3d apply(const Eigen::Vector3d& coded) const;
-    /// The reference of the pass on the GPU; alpha stays.
+    /// Corrects an image on the CPU; alpha stays. Reference for ColourPass.
     ColourImage apply(const ColourImage& picture) const;
 };
 
-/// sRGB's transfer function for one channel, 0 to 1, and its inverse; template for derivatives.
+/// sRGB's transfer function for one channel, 0 to 1, and its inverse. Templates, so that a solver
+/// can take derivatives.
 template <class T>
 T srgb_decode(const T& coded) {
     using std::pow;

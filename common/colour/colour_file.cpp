@@ -55,8 +55,8 @@ void save_colour(const std::filesystem::path& path, const ColourCorrection& corr
     correction.validate();
     const RowMajor matrix = correction.matrix;
     const std::string text = fmt::format(
-        "# From one camera's colours to the stage's: encode(matrix * decode(camera) ^ tone), with\n"
-        "# sRGB's transfer function. Named in stage.toml as the rig's `colour`.\n"
+        "# The colour correction of one camera: encode(matrix * decode(camera) ^ tone), with\n"
+        "# sRGB's transfer function. stage.toml names this file in the rig's key `colour`.\n"
         "version = {}\ndate = \"{}\"\ntool = \"{}\"\nreference = \"{}\"\n"
         "delta_e_before = {:.4f}   # mean CIEDE2000 from the reference\ndelta_e_after = {:.4f}\n"
         "samples = {}\nmatrix = [{:.9g}]\ntone = [{:.9g}]\n",

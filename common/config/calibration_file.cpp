@@ -6,7 +6,6 @@
 #include <opencv2/core.hpp>
 
 #include "common/config/camera_yaml.h"
-#include "common/config/lens_name.h"
 #include "common/config/number_checksum.h"
 
 namespace vantage {
@@ -30,8 +29,8 @@ void add_numbers(NumberChecksum& hash, const StereoCalibration& c) {
     hash.add(c.world_from_left);
 }
 
-/// Over everything that a file says in numbers. Files of version 1 had the calibration's own
-/// checksum, which leaves out how sure its numbers are.
+/// The checksum over all numbers of a file. Files of version 1 used the calibration's own checksum,
+/// which leaves out the uncertainties.
 std::string file_checksum(const StereoCalibration& c, const CalibrationRecord& record) {
     NumberChecksum hash;
     add_numbers(hash, c);
@@ -153,7 +152,7 @@ CalibrationRecord read_record(const YamlSection& top, const StereoCalibration& c
                                 .rms_px = top.number("rms_px"),
                                 .row_rms_px = top.number("row_rms_px"),
                                 .views_used = top.integer("views_used")};
-    // Files of the first version had neither.
+    // Files of version 1 had neither.
     if (!top.node["alpha"].empty()) record.alpha = top.number("alpha");
     if (!top.node["sigma"].empty()) record.sigma = read_sigma(top.section("sigma"), calibration);
     return record;
@@ -175,7 +174,7 @@ Contents read_contents(const YamlSection& top) {
         return contents;
     }
     require_checksum(top.text("checksum"), c.id);
-    // Version 1 had the identity for a place that nobody knew; so had the first rig of a stage.
+    // Version 1 stored the identity for an unknown pose, and also for the first rig of a stage.
     if (contents.record.tool != "vantage-calib stage" &&
         c.world_from_left.matrix() == Pose::Identity().matrix())
         assume_place(c);

@@ -4,7 +4,6 @@
 #include <string>
 
 #include "common/base/error.h"
-#include "common/config/lens_name.h"
 
 namespace vantage {
 
@@ -12,7 +11,7 @@ void read_lens(const YamlSection& section, const char* K_key, const char* distor
                CameraModel& camera) {
     const std::string name = section.text("lens");
     const std::optional<LensModel> lens = lens_named(name);
-    if (!lens) fail("'{}lens' is '{}', and it must be pinhole or fisheye", section.name, name);
+    if (!lens) fail("'{}lens' is '{}', but must be pinhole or fisheye", section.name, name);
     camera.lens = *lens;
     const Eigen::Matrix3d K = section.matrix3(K_key);
     if (K(1, 0) != 0 || K(2, 0) != 0 || K(2, 1) != 0 || K(2, 2) != 1)
@@ -41,6 +40,14 @@ CalibrationSigma::Camera read_lens_sigma(const YamlSection& section, std::size_t
         fail("'{}distortion' has {} numbers for {} coefficients", section.name,
              sigma.distortion.size(), coefficients);
     return sigma;
+}
+
+const char* lens_name(LensModel lens) { return lens == LensModel::fisheye ? "fisheye" : "pinhole"; }
+
+std::optional<LensModel> lens_named(std::string_view name) {
+    for (const LensModel lens : {LensModel::pinhole, LensModel::fisheye})
+        if (name == lens_name(lens)) return lens;
+    return {};
 }
 
 }  // namespace vantage

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
 #include <opencv2/core.hpp>
 
 #include "common/config/calibration_file.h"
 #include "common/config/yaml_section.h"
+#include "common/geometry/camera_model.h"
 
 namespace vantage {
 
@@ -13,9 +16,13 @@ namespace vantage {
 void read_lens(const YamlSection& section, const char* K_key, const char* distortion_key,
                CameraModel& camera);
 
-/// The keys of a camera's deviations, into the map that is open.
+/// Writes a camera's standard deviations into the open map.
 void write_lens_sigma(cv::FileStorage& file, const CalibrationSigma::Camera& sigma);
-/// Throws Error, also unless there is a deviation for each of so many coefficients.
+/// Reads them. Throws Error, also unless there is one per distortion coefficient.
 CalibrationSigma::Camera read_lens_sigma(const YamlSection& section, std::size_t coefficients);
+
+/// The name of a lens model in calibration files, and the model of a name; empty if unknown.
+const char* lens_name(LensModel lens);
+std::optional<LensModel> lens_named(std::string_view name);
 
 }  // namespace vantage

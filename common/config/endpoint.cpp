@@ -20,8 +20,7 @@ bool is_port(std::string_view text) {
 }
 
 bool is_host(std::string_view text) {
-    // ZeroMQ gives ';' and '/' meanings of their own inside an address; none of them is let
-    // through.
+    // ZeroMQ gives ';' and '/' inside an address a special meaning, so they are refused.
     return text == "*" || (!text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
                return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' ||
                       c == '_';

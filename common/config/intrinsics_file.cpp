@@ -1,7 +1,6 @@
 #include "common/config/intrinsics_file.h"
 
 #include "common/config/camera_yaml.h"
-#include "common/config/lens_name.h"
 #include "common/config/number_checksum.h"
 
 namespace vantage {
@@ -18,7 +17,7 @@ std::string checksum_of(const CameraModel& camera, const CalibrationSigma::Camer
     return checksum.hex();
 }
 
-/// Files of version 1 left the uncertainties out.
+/// The checksum of version 1, which left out the uncertainties.
 std::string first_checksum_of(const CameraModel& camera) {
     NumberChecksum checksum;
     checksum.add(camera);

@@ -8,22 +8,22 @@
 
 namespace vantage {
 
-/// Facts about how a camera's lens was calibrated.
+/// How a lens calibration was made.
 struct IntrinsicsRecord {
     std::string date;  ///< ISO 8601
     std::string tool;
-    double rms_px = 0;  ///< reprojection
+    double rms_px = 0;  ///< reprojection error
     int views_used = 0;
     CalibrationSigma::Camera sigma;
 };
 
-/// One camera's lens as YAML, with version, units, date, residual, deviations and a checksum over
-/// the numbers, under the names that OpenCV's own calibration sample uses, so that its tools read
-/// the file. Throws Error naming file and value for what is missing, damaged or impossible.
+/// Loads an intrinsics file of one camera: YAML with version, units, date, residual, standard
+/// deviations and a checksum, with the key names of OpenCV's calibration sample, so that its tools
+/// can read it. Throws Error naming file and value if anything is missing or invalid.
 CameraModel load_intrinsics(const std::filesystem::path& path);
 
-/// Writes atomically. A file that stood there before and is good is kept as PATH.last. Throws Error
-/// if the camera is not valid, or the disk refuses.
+/// Writes the file atomically. A valid earlier file is kept as PATH.last. Throws Error if the
+/// camera is invalid, or the file cannot be written.
 void save_intrinsics(const std::filesystem::path& path, const CameraModel& camera,
                      const IntrinsicsRecord& record);
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "common/config/lens_name.h"
+#include "common/config/camera_yaml.h"
 
 namespace vantage {
 
@@ -43,8 +43,8 @@ std::string checksum_text(const std::string& hex) { return "fnv1a64:" + hex; }
 void require_checksum(const std::string& stated, const std::string& hex) {
     if (stated != checksum_text(hex))
         fail(
-            "the checksum does not fit the numbers ({} would): the file was changed or is damaged; "
-            "calibrate again or take the last good file",
+            "the checksum does not match the numbers ({} would): the file was changed or is "
+            "damaged; calibrate again or restore the last good file",
             checksum_text(hex));
 }
 

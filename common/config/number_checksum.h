@@ -12,8 +12,8 @@
 
 namespace vantage {
 
-/// The checksum of calibration files (FNV-1a, 64 bits) over their numbers, each in the shortest
-/// decimal form that reads back as the same; -0 counts as 0.
+/// The checksum of calibration files (FNV-1a, 64 bits) over numbers, each in the shortest decimal
+/// form that parses to the same value; -0 counts as 0.
 class NumberChecksum {
   public:
     void add(double number);
@@ -34,9 +34,9 @@ class NumberChecksum {
     std::uint64_t hash_ = 0xcbf29ce484222325ull;
 };
 
-/// Throws Error unless `stated` is the checksum with these digits, as files have it.
+/// Throws Error unless `stated`, as files have it, is the checksum with these digits.
 void require_checksum(const std::string& stated, const std::string& hex);
-/// "fnv1a64:" and the digits.
+/// The form in files: "fnv1a64:" and the digits.
 std::string checksum_text(const std::string& hex);
 
 }  // namespace vantage

@@ -43,7 +43,8 @@ void read_virtual_rig(TomlTable& table, RigConfig::VirtualRig& rig) {
     table.read("baseline_m", rig.baseline_m, {0.001, 10});
     table.read("field_of_view_deg", rig.field_of_view_deg, {1, 150});
     table.read("doffs_px", rig.doffs_px, {-4096, 4096});
-    table.read("set", rig.set, {0, 1000000});
+    table.rename("set", "scene");  // old name
+    table.read("scene", rig.scene, {0, 1000000});
     table.read("loop_mb", rig.loop_mb, {0, 1e6});
     table.read("loop_ahead", rig.loop_ahead);
     constexpr double second_us = 1e6;
@@ -73,11 +74,11 @@ void read_trigger(TomlTable& table, RigConfig::Trigger& trigger) {
     table.read("spin_us", trigger.spin_us, {0, second_us / 100});
     table.read("realtime_priority", trigger.realtime_priority, {0, 99});
     if (!trigger.line.empty() && trigger.line_offset >= 0)
-        table.refuse("line_offset", "is given beside 'line': name the line one way");
+        table.refuse("line_offset", "cannot be combined with 'line': keep one");
     const bool has_line = !trigger.line.empty() || trigger.line_offset >= 0;
     if (trigger.role == "free" || (trigger.pretended && trigger.role == "lead")) return;
     if (trigger.pretended)
-        table.refuse("pretended", "goes with the role 'lead' only: there is no edge to follow");
+        table.refuse("pretended", "needs the role 'lead': other roles need an edge");
     if (trigger.chip.empty() || !has_line)
         table.refuse("role",
                      "needs 'chip', the label of a GPIO chip, and 'line' or 'line_offset' "

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int stage_config_version = 1;
 
-/// The first word of a file, such as `vantage-rig keys show` writes.
+/// The first word of a file that `vantage-rig keys show` has written.
 std::string read_public_key(const TomlTable& table, const std::filesystem::path& path) {
     constexpr std::size_t max_bytes = 4096;
     const std::vector<std::byte> bytes = read_file(path, max_bytes);
@@ -31,7 +31,7 @@ void read_rig(TomlTable& table, std::vector<StageConfig::Rig>& rigs) {
     const auto same_name = [&](const StageConfig::Rig& other) { return other.name == rig.name; };
     if (std::any_of(rigs.begin(), rigs.end(), same_name))
         table.refuse("name",
-                     fmt::format("is '{}' a second time: every rig has its own name", rig.name));
+                     fmt::format("is '{}' a second time: every rig needs its own name", rig.name));
     table.require("endpoint");
     table.read("endpoint", rig.endpoint);
     if (table.has("endpoint")) check_endpoint(table, "endpoint", rig.endpoint);
@@ -50,7 +50,7 @@ void read_rig(TomlTable& table, std::vector<StageConfig::Rig>& rigs) {
 void read_timecode(TomlTable& table, StageConfig& config) {
     table.read("zone", config.timecode_zone);
     if (!config.timecode_zone.empty() && !is_time_zone(config.timecode_zone))
-        table.refuse("zone", fmt::format("= '{}' is no time zone of this computer; timedatectl "
+        table.refuse("zone", fmt::format("= '{}' is not a time zone of this computer; timedatectl "
                                          "list-timezones lists them",
                                          config.timecode_zone));
 }
@@ -89,7 +89,7 @@ StageConfig load_stage_config(const std::filesystem::path& path) {
         top.require("rigs");
         top.read_tables("rigs", [&](TomlTable& t) { read_rig(t, config.rigs); });
         if (top.has("rigs") && config.rigs.empty())
-            top.refuse("rigs", "is empty: a stage has at least one rig");
+            top.refuse("rigs", "is empty: a stage needs at least one rig");
         top.read("key_file", config.key_file);
         top.read("rate_hz", config.rate_hz, {0.01, 1000});
         top.read("latency_budget_ms", config.latency_budget_ms, {1, 60000});

@@ -18,8 +18,8 @@ void read_stream_name(TomlTable& table, std::string& name) {
     });
     if (!fits || name.empty() || name.size() > max_length)
         table.refuse("name",
-                     fmt::format("is '{}', and it must be 1 to {} letters, digits, '-' and '_'",
-                                 name, max_length));
+                     fmt::format("is '{}', but must be 1 to {} letters, digits, '-' and '_'", name,
+                                 max_length));
 }
 
 void check_endpoint(const TomlTable& table, std::string_view key, const std::string& endpoint) {

@@ -9,7 +9,6 @@
 #include <toml++/toml.h>
 
 #include "common/base/error.h"
-#include "common/config/toml_text.h"
 
 namespace vantage {
 namespace {
@@ -23,7 +22,7 @@ toml::table parse(std::string_view text, const std::filesystem::path& name) {
     }
 }
 
-/// Where a place of the parser's is in the text. Its columns are characters, not bytes.
+/// The byte offset of a position of the parser, whose columns count characters.
 std::size_t offset_of(std::string_view text, const toml::source_position& place) {
     std::size_t offset = 0;
     for (toml::source_index line = 1; line < place.line; ++line) {
@@ -41,7 +40,7 @@ std::size_t offset_of(std::string_view text, const toml::source_position& place)
     return offset;
 }
 
-/// The first byte of the line after the one that `offset` is in.
+/// The first byte of the line after the one with `offset`.
 std::size_t after_line(std::string_view text, std::size_t offset) {
     const std::size_t end = text.find('\n', offset);
     return end == std::string_view::npos ? text.size() : end + 1;
@@ -64,7 +63,7 @@ std::string inserted(std::string_view text, std::size_t at, const std::string& l
            std::string(text.substr(at));
 }
 
-/// Below the header, or, at the top, below its first key.
+/// The offset for a new key: below the table's header, or, at the top, below its first key.
 std::optional<std::size_t> place_in(std::string_view text, const toml::table& table, bool is_top) {
     if (is_top) {
         std::optional<std::size_t> place;
@@ -90,7 +89,7 @@ std::string with_toml_value(std::string_view text, std::string_view table, std::
                             std::string_view value, const std::filesystem::path& name) {
     const toml::table top = parse(text, name);
     const toml::table* const in = table_at(top, table);
-    if (!in && top.at_path(table)) fail("{}: '{}' is no table", name.string(), table);
+    if (!in && top.at_path(table)) fail("{}: '{}' is not a table", name.string(), table);
     if (!in) {
         const std::string line = fmt::format("\n[{}]\n", table) + line_of(key, value);
         return inserted(text, text.size(), line);
@@ -103,7 +102,7 @@ std::string with_toml_value(std::string_view text, std::string_view table, std::
     }
     const std::optional<std::size_t> place = place_in(text, *in, table.empty());
     if (!place)
-        fail("{}: the table '{}' has no header [{}] of its own to put '{}' below; write one",
+        fail("{}: the table '{}' has no header [{}] below which '{}' could be put; write one",
              name.string(), table, table, key);
     return inserted(text, *place, line_of(key, value));
 }
@@ -119,6 +118,24 @@ std::string without_toml_key(std::string_view text, std::string_view table, std:
     const std::size_t begin = previous_end == std::string_view::npos ? 0 : previous_end + 1;
     const std::size_t end = after_line(text, offset_of(text, node->source().end));
     return std::string(text.substr(0, begin)) + std::string(text.substr(end));
+}
+
+std::string toml_string(const std::string& text) {
+    std::string quoted = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') quoted += '\\';
+        quoted += c;
+    }
+    return quoted + '"';
+}
+
+std::string fault_of_name(const std::string& name) {
+    constexpr std::size_t longest_name = 40;
+    if (name.size() > longest_name) return fmt::format("is longer than {} bytes", longest_name);
+    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == 127; };
+    if (std::any_of(name.begin(), name.end(), is_control))
+        return "has a character that cannot be shown";
+    return "";
 }
 
 }  // namespace vantage

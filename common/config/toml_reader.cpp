@@ -6,6 +6,7 @@
 #include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/log.h"
 
 namespace vantage {
 namespace {
@@ -44,10 +45,26 @@ TomlTable::TomlTable(const toml::table& table, std::string name, const std::file
 
 const toml::node* TomlTable::find(std::string_view key) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
-    return table_->get(key);
+    return table_->get(name_in_file(key));
 }
 
-bool TomlTable::has(std::string_view key) const { return table_->contains(key); }
+void TomlTable::rename(std::string_view old_name, std::string_view name) {
+    if (!table_->contains(old_name)) return;
+    if (table_->contains(name))
+        refuse(old_name, fmt::format("is the old name of '{}': keep one", name));
+    log_warning("{}: '{}'{} is now called '{}'; the old name will be removed", place(old_name),
+                old_name, in_table(name_), name);
+    known_.emplace_back(old_name);
+    renamed_.emplace_back(name, old_name);
+}
+
+std::string_view TomlTable::name_in_file(std::string_view key) const {
+    for (const auto& [name, old_name] : renamed_)
+        if (name == key) return old_name;
+    return key;
+}
+
+bool TomlTable::has(std::string_view key) const { return table_->contains(name_in_file(key)); }
 
 std::vector<std::string> TomlTable::keys() const {
     std::vector<std::string> names;
@@ -60,7 +77,7 @@ void TomlTable::leave_others() {
 }
 
 std::string TomlTable::place(std::string_view key) const {
-    const auto entry = table_->find(key);
+    const auto entry = table_->find(name_in_file(key));
     const toml::source_region& region =
         entry == table_->end() ? table_->source() : entry->first.source();
     return fmt::format("{}:{}", file_.string(), std::max<toml::source_index>(region.begin.line, 1));
@@ -72,15 +89,15 @@ void TomlTable::refuse(std::string_view key, std::string_view what) const {
 
 void TomlTable::refuse_type(std::string_view key, const toml::node& node,
                             std::string_view wanted) const {
-    refuse(key, fmt::format("must be {}, and it is {}", wanted, type_name(node.type())));
+    refuse(key, fmt::format("must be {}, but is {}", wanted, type_name(node.type())));
 }
 
 template <class T>
 void TomlTable::check_range(std::string_view key, T value, Range<T> range) const {
     if (value >= range.least && value <= range.most) return;
     if (range.most == std::numeric_limits<T>::max())
-        refuse(key, fmt::format("is {}, and the least it may be is {}", value, range.least));
-    refuse(key, fmt::format("is {}, and it must be {} to {}", value, range.least, range.most));
+        refuse(key, fmt::format("is {}, but must be at least {}", value, range.least));
+    refuse(key, fmt::format("is {}, but must be {} to {}", value, range.least, range.most));
 }
 
 void TomlTable::read(std::string_view key, bool& value) {
@@ -135,7 +152,7 @@ void TomlTable::read(std::string_view key, std::span<double> values, Range<doubl
     const toml::array* array = node->as_array();
     if (!array) refuse_type(key, *node, wanted);
     if (array->size() != values.size())
-        refuse(key, fmt::format("must be {}, and it has {}", wanted, array->size()));
+        refuse(key, fmt::format("must be {}, but has {}", wanted, array->size()));
     for (std::size_t i = 0; i < values.size(); ++i) {
         const toml::node& element = *array->get(i);
         if (!element.is_number()) refuse_type(key, element, wanted);
@@ -267,7 +284,7 @@ void read_toml_text(std::string_view text, const std::filesystem::path& path, in
              version);
     if (given != version)
         table.refuse("version",
-                     fmt::format("is {}, and this program reads version {}", given, version));
+                     fmt::format("is {}, but this program reads version {}", given, version));
     read_members(table);
     table.finish();
 }

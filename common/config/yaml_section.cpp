@@ -68,14 +68,14 @@ Pose YamlSection::pose(const char* key) const {
 double YamlSection::deviation(const char* key) const {
     const double value = number(key);
     if (!(value >= 0 && std::isfinite(value)))
-        fail("'{}{}' is {}, and a deviation is 0 or more", name, key, value);
+        fail("'{}{}' is {}, but a deviation is 0 or more", name, key, value);
     return value;
 }
 
 std::string read_yaml_text(const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = read_file(path, max_yaml_bytes);
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    // OpenCV's parser goes round for ever on some control characters.
+    // OpenCV's parser loops for ever on some control characters.
     const auto is_control = [](char c) {
         return static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\r' && c != '\t';
     };
@@ -90,7 +90,7 @@ void require_kind(const YamlSection& top, const YamlKind& kind) {
     if (top.text("kind") != kind.kind) fail("this is not {}", kind.in_words);
     const int version = top.integer("version");
     if (version < 1 || version > kind.version)
-        fail("it is of version {}, and this program reads versions 1 to {}", version, kind.version);
+        fail("it has version {}, but this program reads versions 1 to {}", version, kind.version);
 }
 
 void write_yaml_keeping_last(const std::filesystem::path& path, const std::string& yaml,

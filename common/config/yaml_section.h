@@ -14,8 +14,8 @@
 
 namespace vantage {
 
-/// One map of a YAML file with its name, so that every fault can say where it is. Throws Error for
-/// what is missing or of another kind.
+/// One map of a YAML file with its name, so that errors can name the place. Throws Error for values
+/// that are missing or of another type.
 struct YamlSection {
     cv::FileNode node;
     std::string name;
@@ -25,31 +25,31 @@ struct YamlSection {
     std::string text(const char* key) const;
     int integer(const char* key) const;
     double number(const char* key) const;
-    /// A standard deviation: a finite number, 0 or more.
+    /// A standard deviation: a finite number of at least 0.
     double deviation(const char* key) const;
-    /// Elements of a matrix, row by row. Read here and not with OpenCV's operator, which allocates
-    /// whatever size a damaged file states before it looks at the elements.
+    /// The elements of a matrix, row by row. Not read with OpenCV's operator, which allocates
+    /// whatever size a damaged file states before it checks the elements.
     std::vector<double> matrix(const char* key) const;
     Eigen::Matrix3d matrix3(const char* key) const;
     Eigen::Vector3d vector3(const char* key) const;
     Pose pose(const char* key) const;
 };
 
-/// What a YAML file of Vantage says of itself.
+/// The kind and version of a YAML file of Vantage.
 struct YamlKind {
     const char* kind;
     const char* in_words;  ///< "a calibration of Vantage"
-    int version;           ///< that is written; older ones from 1 on are read
+    int version;           ///< the current one; versions from 1 on can be read
 };
 
 inline constexpr std::size_t max_yaml_bytes = 1 << 20;
 
-/// The text of a YAML file, without what OpenCV's parser would never end on. Throws Error.
+/// Reads a YAML file as text, and refuses characters on which OpenCV's parser hangs. Throws Error.
 std::string read_yaml_text(const std::filesystem::path& path);
-/// Throws Error if the file is of another kind, or of a version that is not read.
+/// Throws Error if the file has another kind or an unknown version.
 void require_kind(const YamlSection& top, const YamlKind& kind);
 
-/// What `read` makes of the file's top. Throws Error, naming the file, for whatever is wrong.
+/// Parses a file and returns the result of `read` for its top. Throws Error naming the file.
 template <class Read>
 auto read_yaml(const std::filesystem::path& path, const YamlKind& kind, Read read) {
     const std::string text = read_yaml_text(path);
@@ -61,23 +61,23 @@ auto read_yaml(const std::filesystem::path& path, const YamlKind& kind, Read rea
         require_kind(top, kind);
         return read(top);
     } catch (const cv::Exception& error) {
-        fail("{}: this is not YAML that OpenCV reads ({})", path.string(), error.err);
+        fail("{}: this is not YAML that OpenCV can read ({})", path.string(), error.err);
     } catch (const Error& error) {
         fail("{}: {}", path.string(), error.what());
     } catch (const std::exception& error) {
-        // OpenCV lets the standard library's own exceptions out where a file is badly damaged.
-        fail("{}: this is not YAML that OpenCV reads ({})", path.string(), error.what());
+        // OpenCV throws the standard library's exceptions for some badly damaged files.
+        fail("{}: this is not YAML that OpenCV can read ({})", path.string(), error.what());
     }
 }
 
-/// Writes atomically. A file that stood there before is kept as PATH.last unless `load` throws
-/// Error for it. Throws Error if the disk refuses.
+/// Writes atomically. An earlier file is kept as PATH.last unless `load` throws Error for it.
+/// Throws Error if the file cannot be written.
 void write_yaml_keeping_last(const std::filesystem::path& path, const std::string& yaml,
                              const std::function<void(const std::filesystem::path&)>& load);
 
 cv::Mat to_yaml_matrix(const Eigen::Matrix3d& m);
 cv::Mat to_yaml_matrix(const Eigen::Vector3d& v);
-/// A row, over the vector's own memory.
+/// A matrix row that shares the vector's memory.
 cv::Mat to_yaml_row(const std::vector<double>& values);
 
 }  // namespace vantage

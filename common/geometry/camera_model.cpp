@@ -47,7 +47,7 @@ std::optional<Eigen::Vector2d> CameraModel::project(const Eigen::Vector3d& point
         const std::vector<cv::Point3d> points = {{point_m.x(), point_m.y(), point_m.z()}};
         const cv::Vec3d none(0, 0, 0);
         std::vector<cv::Point2d> pixels;
-        // Skew is applied below, so that OpenCV, which has none, sees unit intrinsics.
+        // Skew is applied below; OpenCV has none and gets unit intrinsics.
         if (lens == LensModel::fisheye)
             cv::fisheye::projectPoints(points, pixels, none, none, cv::Matx33d::eye(),
                                        opencv_distortion());

@@ -7,14 +7,14 @@
 
 namespace vantage {
 
+/// The lens models of OpenCV.
 enum class LensModel {
-    pinhole,  ///< OpenCV's polynomial/rational/thin-prism/tilted model: 0, 4, 5, 8, 12 or 14
-              ///< coefficients
-    fisheye,  ///< OpenCV's fisheye (Kannala-Brandt): 4 coefficients
+    pinhole,  ///< polynomial/rational/thin-prism/tilted: 0, 4, 5, 8, 12 or 14 coefficients
+    fisheye,  ///< Kannala-Brandt: 4 coefficients
 };
 
 /// One camera's intrinsics in OpenCV's conventions: x right, y down, z forward; pixel centres at
-/// integer coordinates; origin top-left. `distortion` holds OpenCV's coefficients in OpenCV's
+/// integer coordinates; origin at the top left. `distortion` holds the coefficients in OpenCV's
 /// order.
 struct CameraModel {
     int width_px = 0, height_px = 0;
@@ -25,18 +25,18 @@ struct CameraModel {
 
     Eigen::Matrix3d K() const;
 
-    /// The coefficients as OpenCV's functions take them: four zeros for a fisheye lens that has
-    /// none.
+    /// The coefficients in the form that OpenCV's functions take: four zeros for a fisheye lens
+    /// without coefficients.
     std::vector<double> opencv_distortion() const;
 
-    /// Throws Error naming the first value that cannot be (sizes, focal lengths, coefficient count,
-    /// not finite).
+    /// Throws Error naming the first invalid value (size, focal length, coefficient count, not
+    /// finite).
     void validate() const;
 
-    /// Camera coordinates (m) to pixel; empty for points at or behind the camera.
+    /// Projects a point in camera coordinates to a pixel; empty at or behind the camera.
     std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point_m) const;
 
-    /// Pixel to the ray (x, y, 1) in camera coordinates, distortion undone iteratively.
+    /// The ray (x, y, 1) of a pixel in camera coordinates. Distortion is undone iteratively.
     Eigen::Vector3d unproject(const Eigen::Vector2d& pixel) const;
 };
 

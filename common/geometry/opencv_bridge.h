@@ -7,7 +7,7 @@
 
 namespace vantage {
 
-// Eigen stores columns first and OpenCV rows first; these copy element by element.
+// Eigen stores columns first and OpenCV rows first, so these copy element by element.
 
 inline cv::Matx33d to_cv(const Eigen::Matrix3d& m) {
     return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};

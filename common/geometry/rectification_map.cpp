@@ -17,8 +17,8 @@ cv::Mat2f make_rectification_map(const StereoCalibration& calibration, Side side
                             is_left ? rectified.cx_left_px : rectified.cx_right_px, 0,
                             rectified.f_px, rectified.cy_px, 0, 0, 1);
     const cv::Size size(rectified.width_px, rectified.height_px);
-    // OpenCV knows no skew: it gets unit intrinsics, and the matrix with skew is applied to its
-    // result.
+    // OpenCV's model has no skew: it gets unit intrinsics, and the camera matrix with skew is
+    // applied to its result.
     const cv::Matx33d unit = cv::Matx33d::eye();
     cv::Mat x, y;
     if (camera.lens == LensModel::fisheye)

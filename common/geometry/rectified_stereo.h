@@ -4,8 +4,9 @@
 
 namespace vantage {
 
-/// The geometry of a rectified pair: both cameras share f, cy and orientation; the right one stands
-/// baseline_m along +x. Disparity is left-referenced, positive: x_right = x_left - d.
+/// The geometry of a rectified stereo pair. Both cameras share the focal length, cy and
+/// orientation; the right camera is at baseline_m along +x. Disparity is left-referenced and
+/// positive: x_right = x_left - d.
 struct RectifiedStereo {
     int width_px = 0, height_px = 0;
     double f_px = 0;
@@ -15,9 +16,10 @@ struct RectifiedStereo {
     double doffs_px() const { return cx_right_px - cx_left_px; }
     Eigen::Matrix3d K_left() const;
 
-    /// z = f * baseline / (d + doffs), metres; 0 (unknown) where d + doffs <= 0.
+    /// Depth from disparity: z = f * baseline / (d + doffs) in metres; 0 (unknown) if d + doffs <=
+    /// 0.
     double depth_m(double disparity_px) const;
-    /// d = f * baseline / z - doffs; precondition z > 0.
+    /// Disparity from depth: d = f * baseline / z - doffs; precondition: z > 0.
     double disparity_px(double depth_m) const;
 };
 

@@ -10,7 +10,7 @@ struct EmbeddedShader {
     std::string_view source;
 };
 
-/// Every file of shaders/, put into the program by the build (shaders/CMakeLists.txt).
+/// All files of shaders/, embedded by the build (shaders/CMakeLists.txt).
 std::span<const EmbeddedShader> embedded_shaders();
 
 }  // namespace vantage

@@ -18,7 +18,7 @@ std::filesystem::path folder_from_environment() {
     return folder ? folder : "";
 }
 
-/// The name in `#include "name"`, or empty if the line is no include.
+/// The file name of an `#include "name"` line; empty for other lines.
 std::string_view include_name(std::string_view line) {
     const auto start = line.find_first_not_of(" \t");
     if (start == std::string_view::npos || line.substr(start, 8) != "#include") return {};

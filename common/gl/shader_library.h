@@ -10,28 +10,28 @@
 
 namespace vantage {
 
-/// Preprocessor definitions put before a shader, e.g. {"LANES", "16"}.
+/// Preprocessor definitions written before a shader: {"LANES", "16"}.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
-/// The shaders of shaders/, by file name without the room ("stereo_luma.comp"). They are embedded
-/// at build time. With the environment variable VANTAGE_SHADERS set to a folder, files found there
-/// or in its subfolders win, and poll() notices when they change, so that running programs reload
-/// an edited shader (see Program). Shader files have no #version line (this class writes `#version
-/// 310 es` and the default precisions), include other files by name (`#include "x.glsl"`), and have
-/// `#ifndef X / #define X default` for every define they take, so that each file compiles alone and
-/// is validated at build.
+/// The shaders of shaders/, by file name without the folder ("stereo_luma.comp"), embedded at build
+/// time. If the environment variable VANTAGE_SHADERS names a folder, files in it or its subfolders
+/// replace embedded ones, and poll() notices their changes, so that running programs reload edited
+/// shaders (see Program). Shader files have no #version line: this class writes `#version 310 es`
+/// and the default precisions. They include other files by name (`#include "x.glsl"`) and have a
+/// default for each define (`#ifndef X / #define X ...`), so that the build can validate each file
+/// alone.
 class ShaderLibrary {
   public:
     ShaderLibrary();
     explicit ShaderLibrary(std::filesystem::path override_folder);
 
-    /// Complete source for glShaderSource. Throws Error if there is no such shader or include.
+    /// The complete source for glShaderSource. Throws Error for an unknown shader or include.
     std::string source(std::string_view file, const ShaderDefines& defines = {}) const;
 
-    /// Looks at the override folder; true if something changed since the last look. At most a stat
-    /// per file.
+    /// Checks the override folder; true if a file changed since the last call. Costs at most one
+    /// stat per file.
     bool poll();
-    /// Grows with every change that poll() saw.
+    /// Increases with every change that poll() noticed.
     std::uint64_t generation() const { return generation_; }
 
     std::vector<std::string> embedded_names() const;

@@ -14,16 +14,18 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Like the current context, it belongs to the thread.
+/// Thread-local, like the current context.
 thread_local const SlicedDrawing* current_slicing = nullptr;
 
+/// The first band of a pass, and the smallest one, in rows.
 constexpr int first_rows = 32, fewest_rows = 8;
-/// A driver that does not answer for so long is lost, not slow.
+/// A driver that does not answer for this long is lost, not slow.
 constexpr std::chrono::seconds patience{10};
-/// A band waits so long for others at most, so that a renderer that is never done leaves some time.
+/// The longest wait of a band for a priority renderer, so that one that is always busy leaves some
+/// time to others.
 constexpr std::chrono::milliseconds longest_way{60};
 
-/// While it lives, only the rows that are kept are drawn.
+/// Restricts drawing to a range of rows during its life.
 class ScissorRows {
   public:
     explicit ScissorRows(int width) : width_(width) { glEnable(GL_SCISSOR_TEST); }
@@ -87,7 +89,7 @@ void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>
         const double share =
             std::chrono::duration<double>(time) / std::chrono::duration<double>(slice_);
         y += height;
-        // Halfway to what would have filled the slice: one band says little.
+        // Halfway to the height that would have filled the slice, since one band's time is noisy.
         const double fitting = height / std::max(share, 0.05);
         rows = std::clamp(static_cast<int>(std::lround(0.5 * (rows + fitting))), fewest_rows,
                           std::max(target.height, fewest_rows));

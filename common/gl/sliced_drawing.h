@@ -9,28 +9,28 @@
 
 namespace vantage {
 
-/// While it lives, fullscreen passes of this thread are drawn in bands of rows, each waited for
-/// before the next is begun, so that another context that shares the GPU (or the software
-/// rasteriser) gets its turn between them: while that one claims the right of way, bands wait. How
-/// many rows a band has follows from what the bands of the same pass took before. `between` is
-/// called before every band; what it throws ends the pass there.
+/// Draws fullscreen passes of this thread in bands of rows during its life, and waits for the GPU
+/// after each band, so that another context on the same GPU or software rasteriser can draw between
+/// them. While a RenderPriority is claimed, bands wait. The height of a band follows from the time
+/// that earlier bands of the same pass took. `between` is called before each band; an exception
+/// from it ends the pass.
 class SlicedDrawing {
   public:
-    /// `way` must outlive it; null: nobody goes first. Bands wait for others so long at most that
-    /// `least_share` of the time is theirs, from 0 to 1.
+    /// `way` must outlive this object; null: no priorities. Bands wait for claims only so long that
+    /// `least_share` of the time, from 0 to 1, stays for this thread.
     explicit SlicedDrawing(std::chrono::nanoseconds slice, RenderPriority* way = nullptr,
                            std::function<void()> between = {}, double least_share = 0);
     ~SlicedDrawing();
     SlicedDrawing(const SlicedDrawing&) = delete;
     SlicedDrawing& operator=(const SlicedDrawing&) = delete;
 
-    /// Of this thread; null: nothing is to be sliced.
+    /// The slicing of this thread; null if passes are drawn whole.
     static const SlicedDrawing* current();
 
-    /// Calls `draw` under a scissor for every band of the target. `rows` is the pass's own memory
-    /// of a band's height; 0 at first.
+    /// Calls `draw` under a scissor for each band of the target. `rows` keeps the band's height for
+    /// the pass; 0 at first.
     void draw(cv::Size target, int& rows, const std::function<void()>& draw) const;
-    /// Waits while another context has the right of way, not for ever. Throws what `between` does.
+    /// Waits while another context has priority, within the limit. Throws what `between` throws.
     void give_way() const;
 
   private:
@@ -40,7 +40,7 @@ class SlicedDrawing {
     RenderPriority* way_;
     std::function<void()> between_;
     double least_share_;
-    mutable std::chrono::nanoseconds may_wait_;  ///< by what was drawn; a thread's own
+    mutable std::chrono::nanoseconds may_wait_;  ///< remaining wait, earned by drawing
     const SlicedDrawing* before_;
 };
 

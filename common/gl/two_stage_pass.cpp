@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-/// Between the depths of two_stages.glsl.
+/// A depth between the two of two_stages.glsl.
 constexpr float between = 0.5f;
 
 ShaderDefines with_stage(ShaderDefines defines, const char* is_first) {

@@ -14,10 +14,10 @@
 namespace vantage {
 namespace {
 
-/// A hash of fields, each preceded by its length, so that none can pass for a part of another.
+/// A hash of fields, each preceded by its length, so that fields cannot be confused.
 class FieldHash {
   public:
-    /// `purpose` keeps a hash of one purpose from serving another.
+    /// `purpose` separates the hashes of different uses.
     explicit FieldHash(std::string_view purpose, const PairBytes* key = nullptr) {
         crypto_generichash_init(&state_, key ? key->data() : nullptr, key ? key->size() : 0,
                                 PairBytes().size());

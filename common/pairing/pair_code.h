@@ -6,19 +6,19 @@
 
 namespace vantage {
 
-// How a person's comparing of a short code proves that nobody stands between two ends: the
-// commitment and short authentication string of Vaudenay, "Secure Communications over Insecure
-// Channels Based on Short Authenticated Strings", CRYPTO 2005, with each end's nonce and identity
-// hashed (BLAKE2b, libsodium). Who stands between has to choose what it says to either end before
-// it knows what the codes will be: one guess in a million an attempt, and attempts are few.
+// Authenticates two ends by a short code that people compare: commitment and short authentication
+// string of Vaudenay, "Secure Communications over Insecure Channels Based on Short Authenticated
+// Strings", CRYPTO 2005. Each end's nonce and identity are hashed (BLAKE2b, libsodium). A
+// man in the middle has to commit before it knows the codes: its chance is one in a million per
+// attempt, and attempts are limited.
 
-/// 32 bytes of the system's entropy.
+/// 32 random bytes from the system.
 PairBytes random_pair_bytes();
 
-/// What a host says first of the reveal that it keeps to itself till the rig has offered.
+/// The host's commitment to the reveal that it sends after the rig's offer.
 PairBytes pair_commitment(const PairReveal& reveal);
 
-/// All that both ends have said until they show the code.
+/// All messages that both ends exchanged before they show the code.
 struct PairTranscript {
     PairCommit commit;
     PairOffer offer;
@@ -26,20 +26,20 @@ struct PairTranscript {
 };
 PairBytes digest_of(const PairTranscript& transcript);
 
-/// Six digits in two groups: "483 920".
+/// The code: six digits in two groups, "483 920".
 std::string pair_code(const PairBytes& digest);
 
-/// A person has typed this very code, with or without its blank.
+/// Whether a person typed this code, with or without the space.
 bool is_same_code(const std::string& typed, const std::string& code);
 
 enum class PairEnd { host, rig };
-/// That this end's person has confirmed the transcript with this digest, and that this end holds
-/// the secret key to the public one it named: a keyed hash under the secret that both key pairs
-/// share (X25519). Both keys Z85. Throws Error for a public key that shares no secret.
+/// Proves that the person at this end confirmed the transcript with this digest, and that this end
+/// holds the secret key of its public one: a keyed hash under the secret that both key pairs share
+/// (X25519). Keys are in Z85. Throws Error for a public key that yields no shared secret.
 PairBytes pair_proof(PairEnd end, const PairBytes& digest, const std::string& own_secret_key,
                      const std::string& other_public_key);
 
-/// In a time that says nothing about where they differ.
+/// Compares in constant time.
 bool same_bytes(const PairBytes& a, const PairBytes& b);
 
 }  // namespace vantage

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t max_why_chars = 512;
 constexpr int highest_port = 65535;
-/// As in the files of rig and stage.
+/// The limits of rig.toml and stage.toml.
 constexpr double least_rate_hz = 0.01, most_rate_hz = 1000;
 
 PairBytes bytes_from(const std::string& text, const char* what) {
@@ -75,7 +75,7 @@ PairRefusal from_wire(const wire::PairRefusal& in) {
     const std::string& why = in.why();
     if (why.size() > max_why_chars)
         fail("a refusal of {} characters is beyond the limit of {}", why.size(), max_why_chars);
-    // It is shown at a terminal, which control characters steer.
+    // The text is shown at a terminal, so it must not contain control characters.
     constexpr unsigned char first_printable = ' ', del = 127;
     if (std::any_of(why.begin(), why.end(), [](char c) {
             const auto byte = static_cast<unsigned char>(c);

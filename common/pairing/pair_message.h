@@ -10,26 +10,26 @@
 
 namespace vantage {
 
-/// Hashes, nonces and proofs of a pairing.
+/// A hash, nonce or proof of the pairing protocol.
 using PairBytes = std::array<std::uint8_t, 32>;
 
-/// Host to rig, first: a hash of the reveal that follows (pair_commitment()).
+/// From host to rig, first message: the hash of the later reveal (pair_commitment()).
 struct PairCommit {
     PairBytes commitment{};
     bool operator==(const PairCommit&) const = default;
 };
 
-/// Rig to host: who it is.
+/// From rig to host: the rig's identity.
 struct PairOffer {
     std::string rig;
     std::string public_key;  ///< Z85
     PairBytes nonce{};
-    int stream_port = 0;  ///< where it streams; 0: another one at every start
-    double rate_hz = 30;  ///< of pulses, as the rig is told
+    int stream_port = 0;  ///< of the rig's stream; 0: a new one at every start
+    double rate_hz = 30;  ///< the trigger rate in the rig's configuration
     bool operator==(const PairOffer&) const = default;
 };
 
-/// Host to rig: what it had committed to.
+/// From host to rig: the content of the commitment.
 struct PairReveal {
     std::string host;
     std::string public_key;  ///< Z85
@@ -37,15 +37,15 @@ struct PairReveal {
     bool operator==(const PairReveal&) const = default;
 };
 
-/// Either way, once the person there has compared the codes (pair_proof()).
+/// From either end, after its person has confirmed the code (pair_proof()).
 struct PairConfirm {
     PairBytes proof{};
     bool operator==(const PairConfirm&) const = default;
 };
 
-/// Either way: the end.
+/// From either end: ends the pairing.
 struct PairRefusal {
-    std::string why;  ///< a sentence
+    std::string why;  ///< one sentence
     bool operator==(const PairRefusal&) const = default;
 };
 
@@ -53,7 +53,7 @@ using PairMessage = std::variant<PairCommit, PairOffer, PairReveal, PairConfirm,
 
 std::vector<std::byte> encode(const PairMessage& message);
 
-/// Takes nothing on trust: throws Error with one sentence for what is truncated, oversized, of
+/// Decodes an untrusted message. Throws Error with one sentence if it is truncated, oversized, of
 /// another schema version, or out of range.
 PairMessage decode_pair_message(std::span<const std::byte> part);
 

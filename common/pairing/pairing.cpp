@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-[[noreturn]] void refuse_out_of_turn() { fail("a message of a pairing came out of turn"); }
+[[noreturn]] void refuse_out_of_turn() { fail("a pairing message came out of turn"); }
 
 }  // namespace
 
@@ -34,8 +34,8 @@ void Pairing::take_proof(const PairConfirm& confirm) {
     if (!same_bytes(confirm.proof,
                     pair_proof(other_end, digest_, own_secret_key_, other_public_key_)))
         fail(
-            "the other end has confirmed something else than what was said here: somebody may "
-            "stand between; nothing is trusted");
+            "the other end confirmed something else than what this end sent: somebody may stand "
+            "between the two computers; nothing is trusted");
     is_proven_ = true;
 }
 
@@ -52,7 +52,7 @@ std::optional<PairMessage> HostPairing::hear(const PairMessage& message) {
         return std::nullopt;
     }
     const auto* offer = std::get_if<PairOffer>(&message);
-    // A second offer would let who stands between choose after it has seen the reveal.
+    // A second offer would let a man in the middle choose after it has seen the reveal.
     if (!offer || code()) refuse_out_of_turn();
     said.offer = *offer;
     show_code(offer->public_key);
@@ -73,7 +73,7 @@ void RigPairing::hear(const PairMessage& message) {
     const auto* reveal = std::get_if<PairReveal>(&message);
     if (!reveal || code()) refuse_out_of_turn();
     if (!same_bytes(pair_commitment(*reveal), said.commit.commitment))
-        fail("the host has revealed something else than it had committed to; nothing is trusted");
+        fail("the host revealed something else than it had committed to; nothing is trusted");
     said.reveal = *reveal;
     show_code(reveal->public_key);
 }

@@ -9,19 +9,20 @@
 
 namespace vantage {
 
-/// One attempt to pair, as both ends see it. The host commits, the rig offers, the host reveals;
-/// then both show the code. Either end proves that its person has confirmed; who has confirmed and
-/// has the other's proof trusts the other's key. Messages that do not fit throw Error, and the
-/// attempt is over.
+/// One attempt to pair a host and a rig. The host commits, the rig offers, the host reveals; then
+/// both show the code. Each end proves that its person confirmed the code. An end that has
+/// confirmed and has the other's proof trusts the other's key. A message out of turn throws Error
+/// and ends the attempt.
 class Pairing {
   public:
-    /// What both persons compare; nothing as long as it is not known.
+    /// The code that both persons compare; empty until it is known.
     const std::optional<std::string>& code() const { return code_; }
 
-    /// The person here has compared the codes. Precondition: there is a code. Once.
+    /// Records that the person at this end confirmed the code. Call it once. Precondition: there
+    /// is a code.
     PairConfirm confirm();
     bool is_confirmed() const { return is_confirmed_; }
-    /// Both have confirmed.
+    /// Whether both ends have confirmed.
     bool is_agreed() const { return is_confirmed_ && is_proven_; }
 
   protected:
@@ -42,26 +43,26 @@ class Pairing {
 
 class HostPairing : public Pairing {
   public:
-    /// `name`: of this host, as check_name() has it.
+    /// `name`: the name of this host, as check_name() requires.
     HostPairing(const CurveKeys& keys, std::string name);
 
     PairCommit commit() const { return said.commit; }
-    /// The answer to an offer, if this is one.
+    /// Takes a message in. Returns the answer to an offer.
     std::optional<PairMessage> hear(const PairMessage& message);
 
-    /// Who the rig says it is. To be trusted once this is_agreed().
+    /// The rig's identity by its own account; trustworthy once is_agreed().
     const PairOffer& rig() const { return said.offer; }
 };
 
 class RigPairing : public Pairing {
   public:
-    /// `offer`: without nonce and key.
+    /// `offer`: without nonce and key, which are filled in.
     RigPairing(const CurveKeys& keys, PairOffer offer, const PairCommit& commit);
 
     const PairOffer& offer() const { return said.offer; }
     void hear(const PairMessage& message);
 
-    /// Who the host says it is. To be trusted once this is_agreed().
+    /// The host's identity by its own account; trustworthy once is_agreed().
     const PairReveal& host() const { return said.reveal; }
 };
 

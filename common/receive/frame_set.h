@@ -10,19 +10,19 @@
 
 namespace vantage {
 
-/// Why a rig is not in a set.
+/// Why a rig's frame is missing from a frame set.
 enum class Absence {
     none,
-    late,            ///< nothing of this pulse, or of a later one, came within the latency budget
+    late,            ///< no frame of this pulse, or a later one, came within the latency budget
     missed_by_rig,   ///< the rig went on to later pulses without this one
-    disconnected,    ///< no sign of life from the rig
-    unsynchronized,  ///< the rig's frames name no pulse of the stage, so they are fused with no
-                     ///< other
+    disconnected,    ///< the rig is silent
+    unsynchronized,  ///< the rig's frames have no pulse of the stage, so they cannot be joined
+                     ///< with another rig's
     not_asked,       ///< this host asked the rig for no frames, or for none of this pulse
     out_of_step,     ///< the rig counts pulses differently from the rest of the stage
 };
 
-/// All rigs' views of the same instant: those that came within the latency budget.
+/// The frames of all rigs at one pulse, as far as they came within the latency budget.
 struct FrameSet {
     struct Slot {
         std::string rig;
@@ -30,8 +30,8 @@ struct FrameSet {
         Absence absence = Absence::none;
     };
     std::uint64_t trigger_index = 0;
-    std::vector<Slot> slots;   ///< one for every rig of the stage, in the stage's order
-    MonotonicTime complete{};  ///< when the set was closed
+    std::vector<Slot> slots;   ///< one per rig, in the order of stage.toml
+    MonotonicTime complete{};  ///< when the frame set was closed
 
     int present() const {
         int n = 0;

@@ -7,18 +7,18 @@
 namespace vantage {
 namespace {
 
-/// A rig that is silent this long has no say in the stage's step.
+/// A rig that is silent for this long does not count for the stage's step.
 constexpr std::chrono::seconds silence_limit{1};
-/// A rig this far behind the others does not lag, it counts differently.
+/// A rig this far behind the others is not late: it counts pulses differently.
 constexpr std::chrono::seconds behind_limit{5};
 
-/// Late frames in a row, after which a rig lags.
+/// Number of late frames in a row after which the host does not wait for a rig.
 constexpr int lagging_after = 10;
-/// Frames in a row without a pulse, after which a rig is told to get none. One that films more
-/// often than it is triggered has some.
+/// Number of frames in a row without a pulse after which the rig counts as untriggered. A rig that
+/// films faster than its trigger has such frames in between.
 constexpr int pulseless_after = 10;
 
-/// A rig in play may be late by the budget, and miss one of the pulses it is asked for.
+/// The longest expected silence of an active rig: the latency budget, and one missed pulse.
 std::chrono::nanoseconds patience(const FrameSetAssembler::Options& options,
                                   std::uint32_t rate_divisor) {
     return options.latency_budget + 2 * options.period * rate_divisor;
@@ -76,7 +76,7 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
     if (set.frames[rig_number]) return FrameFate::duplicate;
     set.frames[rig_number] = std::move(frame);
     if (open_.size() > max_open_frame_sets) close_through(open_.begin()->first, arrival);
-    return FrameFate::in_background;
+    return FrameFate::in_frame_set;
 }
 
 void FrameSetAssembler::set_connected(std::size_t rig, bool connected) {

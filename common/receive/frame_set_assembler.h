@@ -15,28 +15,29 @@
 
 namespace vantage {
 
-/// What became of a frame that was handed to the assembler.
+/// The fate of a frame that was given to the assembler.
 enum class FrameFate {
-    in_background,     ///< joined the open set of its pulse
-    late,       ///< its set was closed
-    duplicate,  ///< its rig is in that set already
+    in_frame_set,  ///< joined the open frame set of its pulse
+    late,          ///< its frame set was closed
+    duplicate,     ///< the frame set already has a frame of the rig
     unsynchronized,
     out_of_step,
 };
 
-/// Joins the rigs' frames by trigger index. A set opens with the first frame of its pulse and
-/// closes when every rig that is in play has delivered it or gone past it, or when the latency
-/// budget is up; the budget counts from that first frame, not from the exposure, so that it bounds
-/// what one rig can cost the others whatever the rigs' own latency is and however the host's clock
-/// is set. Sets close in the order of their pulses. In play is a rig that is connected, is asked
-/// for the pulse, was not silent for longer than the latency budget and two periods of what it is
-/// asked for (it is again with its next frame), and does not lag: one whose frames have all come
-/// beyond the budget for a while is not waited for until one comes within it.
+/// Joins the rigs' frames into frame sets by trigger index. A frame set opens with the first frame
+/// of its pulse. It closes when every active rig has delivered the pulse or a later one, or when
+/// the latency budget is used up. The budget counts from that first frame, not from the exposure:
+/// it bounds the delay that one rig can cause, whatever the rigs' own latencies and the host's
+/// clock are. Frame sets close in the order of their pulses.
 ///
-/// Frames that name no pulse of the stage are never joined with another rig's; only on a stage of a
-/// single rig are they taken as they come.
+/// A rig is active if it is connected, is asked for the pulse, was not silent for longer than the
+/// latency budget plus two of its periods, and does not lag. A silent rig is active again with its
+/// next frame. A rig lags if all of its recent frames came after the budget, until one is in time.
 ///
-/// Clocks come in as arguments. Not thread-safe.
+/// Frames without a pulse of the stage are never joined with another rig's. On a stage of a single
+/// rig they form frame sets as they come.
+///
+/// Clock readings are arguments. Not thread-safe.
 class FrameSetAssembler {
   public:
     struct Options {
@@ -44,32 +45,31 @@ class FrameSetAssembler {
         std::chrono::nanoseconds latency_budget;
     };
 
-    /// Open sets at a time; one more closes the oldest.
+    /// Open frame sets at a time; a further one closes the oldest.
     static constexpr std::size_t max_open_frame_sets = 32;
 
     FrameSetAssembler(std::vector<std::string> rigs, const Options& options);
 
     FrameFate add(std::size_t rig, std::shared_ptr<const RigFrame> frame, MonotonicTime arrival);
 
-    /// Whether the rig gives signs of life; at first none does.
+    /// Sets whether the rig is connected; initially not.
     void set_connected(std::size_t rig, bool connected);
-    /// Which pulses the rig is asked for: those whose index this divides; 0: none. At first all.
+    /// Sets which pulses the rig is asked for: multiples of `rate_divisor`; 0: none. Initially all.
     void set_asked(std::size_t rig, std::uint32_t rate_divisor);
-    /// Whether the rig's pulses are as frequent as the stage's, as far as is known; at first it is
-    /// taken to be so.
+    /// Sets whether the rig's trigger rate equals the stage's, as far as known; initially true.
     void set_at_stage_rate(std::size_t rig, bool is_at_it);
 
-    /// The sets that are closed by now, oldest first.
+    /// Returns the frame sets that are closed by now, oldest first.
     std::vector<FrameSet> take_closed(MonotonicTime now);
 
-    /// When take_closed() has to be called again at the latest; empty while no set is open.
+    /// When take_closed() has to be called next; empty while no frame set is open.
     std::optional<MonotonicTime> next_deadline() const;
 
     /// Whether the rig counts pulses differently from the rest of the stage.
     bool is_out_of_step(std::size_t rig) const;
-    /// Whether its frames come so late that it is not waited for.
+    /// Whether the rig's frames come so late that the host does not wait for them.
     bool lags(std::size_t rig) const;
-    /// Whether none of its frames names a pulse any more.
+    /// Whether the rig's recent frames have no pulse of the stage.
     bool names_no_pulse(std::size_t rig) const;
 
     std::size_t open_frame_sets() const { return open_.size(); }
@@ -82,17 +82,18 @@ class FrameSetAssembler {
     struct Rig {
         std::string name;
         bool connected = false;
-        std::uint32_t rate_divisor = 1;  ///< 0: no frames are asked for
+        std::uint32_t rate_divisor = 1;  ///< 0: asked for no frames
         std::optional<std::uint64_t> session;
-        std::optional<std::uint64_t> newest;  ///< index
-        MonotonicTime heard{};                ///< when that came
+        std::optional<std::uint64_t> newest;  ///< trigger index of the newest frame
+        MonotonicTime heard{};                ///< when it came
         int late_in_a_row = 0;
         int unsynchronized_in_a_row = 0;
     };
 
     bool asked_for(std::size_t rig, std::uint64_t index) const;
     bool in_play(std::size_t rig, std::uint64_t index, MonotonicTime now) const;
-    bool everyone_accounted_for(std::uint64_t index, const OpenFrameSet& set, MonotonicTime now) const;
+    bool everyone_accounted_for(std::uint64_t index, const OpenFrameSet& set,
+                                MonotonicTime now) const;
     Absence absence(std::size_t rig, std::uint64_t index) const;
     void close_through(std::uint64_t index, MonotonicTime now);
 
@@ -101,7 +102,7 @@ class FrameSetAssembler {
     StageStep step_;
     std::map<std::uint64_t, OpenFrameSet> open_;
     std::optional<std::uint64_t> last_closed_;
-    std::map<std::uint64_t, MonotonicTime> closed_deadlines_;  ///< of the sets that closed last
+    std::map<std::uint64_t, MonotonicTime> closed_deadlines_;  ///< of recently closed frame sets
     std::vector<FrameSet> closed_;
 };
 

@@ -17,7 +17,7 @@ RigCounters sum(const RigCounters& a, const RigCounters& b) {
             a.published + b.published, a.send_dropped + b.send_dropped};
 }
 
-/// Each not below 0: a rig's counts may lie a frame behind each other.
+/// Differences of at least 0: a rig's counts may be a frame apart from each other.
 RigCounters difference(const RigCounters& a, const RigCounters& b) {
     const auto less = [](std::uint64_t x, std::uint64_t y) { return x - std::min(x, y); };
     return {less(a.captured, b.captured), less(a.missed, b.missed), less(a.late, b.late),
@@ -44,7 +44,7 @@ void LinkAccount::take_counts(const RigMessage& message) {
     this_link_ = message.counters;
     if (!session_) {
         before_ = message.rig_counters;
-        // What is inside the rig at this moment counts as captured from here on.
+        // A frame that is inside the rig at this moment counts as captured from here on.
         before_.captured = std::min(before_.captured, before_.published + before_.late);
     } else if (*session_ != message.session) {
         ended_sessions_ = rig_counters();

@@ -8,36 +8,36 @@
 
 namespace vantage {
 
-/// The host's book of one rig, from the first word it heard of it. Messages of a connection keep
-/// their order, and each says how many frames were sent so far, so every frame that was sent and
-/// did not come is known as soon as anything comes after it.
+/// Accounts for the frames of one rig at the host, since the host's first message from it. Messages
+/// of a connection keep their order and state the number of frames sent, so that a lost frame is
+/// known with the next message.
 ///
-/// A rig counts frames from its start, and anew when its daemon is started anew. Here those counts
-/// are added up over all of its sessions, and what it counted before this host came is taken off,
-/// so that they stand beside the host's own.
+/// A rig counts from the start of its daemon. Here the counts are summed over restarts, and counts
+/// from before this host's first message are subtracted, so that they are comparable with the
+/// host's own counts. Not thread-safe.
 class LinkAccount {
   public:
-    /// A message came, with a frame or without. Returns the number of frames found lost. Throws
-    /// Error if the rig's count goes backwards; the message is then to be ignored.
+    /// Takes a message in, with or without a frame. Returns the number of frames found lost. Throws
+    /// Error if the rig's count decreased; the caller then ignores the message.
     std::uint64_t hear(const RigMessage& message, bool with_frame);
 
-    /// The link the rig has put this host on; 0: none yet.
+    /// The id that the rig gave this host's link; 0: none yet.
     std::uint64_t link() const { return link_; }
-    /// Frames of this link that are accounted for: came or lost.
+    /// Number of frames on this link that came or were lost.
     std::uint64_t known() const { return known_; }
-    /// Frames of this link that the host is done with, when so many of those that came (on this
-    /// link or an earlier one) are not decoded yet.
+    /// Number of frames on this link that the host has finished with, where `unhandled` of those
+    /// that came (on this link or an earlier one) are not decoded yet.
     std::uint64_t handled(std::uint64_t unhandled) const {
         return known_ - std::min(known_, unhandled);
     }
-    /// Lost on all links so far.
+    /// Number of frames lost on all links.
     std::uint64_t lost() const { return lost_; }
 
-    /// Of all links.
+    /// The sum over all links.
     LinkCounters link_counters() const;
-    /// Since this host heard of the rig first.
+    /// The rig's counts since this host's first message from it.
     RigCounters rig_counters() const;
-    /// How often the rig's daemon was started anew since.
+    /// Number of restarts of the rig's daemon since then.
     std::uint64_t restarts() const { return restarts_; }
 
   private:
@@ -50,7 +50,7 @@ class LinkAccount {
     std::optional<std::uint64_t> session_;
     LinkCounters ended_links_, this_link_;
     RigCounters ended_sessions_, this_session_;
-    RigCounters before_;  ///< what this session had counted when this host came
+    RigCounters before_;  ///< counts of this daemon session from before the host's first message
 };
 
 }  // namespace vantage

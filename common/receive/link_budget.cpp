@@ -7,11 +7,11 @@
 namespace vantage {
 namespace {
 
-/// Of 1538 bytes that a full packet takes on Ethernet 1448 are the sender's; ZeroMQ and its
-/// encryption add less than a hundredth.
+/// A full packet takes 1538 bytes on Ethernet for 1448 bytes of data; ZeroMQ and its encryption add
+/// less than one percent.
 constexpr double wire_bytes_a_byte = 1538.0 / 1448 * 1.01;
 constexpr double planned_share = 0.8;
-/// A host may ask a rig for no fewer.
+/// The largest rate divisor that is proposed.
 constexpr int most_divisor = 16;
 
 double mbit_s(double bytes_a_frame, double rate_hz) {
@@ -19,10 +19,10 @@ double mbit_s(double bytes_a_frame, double rate_hz) {
     return bits_a_byte * wire_bytes_a_byte * bytes_a_frame * rate_hz / bits_a_mbit;
 }
 
-/// What one frame of a rig weighs.
+/// Returns the bytes per frame of a rig.
 using BytesOf = std::function<double(const RigWeight&)>;
 
-/// Of a quality that the ladder lacks, as it is.
+/// Bytes at a JPEG quality; unchanged for a quality that was not measured.
 BytesOf at_quality(std::optional<int> quality) {
     return [quality](const RigWeight& weight) {
         double colour = weight.colour_bytes;
@@ -32,7 +32,7 @@ BytesOf at_quality(std::optional<int> quality) {
     };
 }
 
-/// Of a size that was not tried, as it is.
+/// Bytes at an image scale; unchanged for a scale that was not measured.
 BytesOf at_scale(double scale) {
     return [scale](const RigWeight& weight) {
         for (const RigWeight::AtScale& step : weight.smaller)
@@ -42,7 +42,7 @@ BytesOf at_scale(double scale) {
     };
 }
 
-/// `rigs`: the heaviest ones that send at a time; 0: all.
+/// `rigs`: the number of largest rigs that send at a time; 0: all.
 LinkBudget budget_at(const std::vector<RigWeight>& weights, double rate_hz,
                      const LinkLimits& limits, const BytesOf& bytes_of, std::size_t rigs = 0) {
     LinkBudget budget;
@@ -70,8 +70,8 @@ LinkBudget plan_links(const std::vector<RigWeight>& weights, double rate_hz,
                       const LinkLimits& limits) {
     LinkBudget budget = budget_at(weights, rate_hz, limits, at_quality(std::nullopt));
     if (budget.fits() || weights.empty()) return budget;
-    // Each divisor once, with the best quality that fits it; a coarser one at a lower rate is worse
-    // in both.
+    // Each divisor once, with the best quality that fits: a lower quality at a lower rate is
+    // worse in both respects.
     std::vector<std::optional<int>> qualities{std::nullopt};
     for (const RigWeight::AtQuality& step : weights.front().ladder)
         qualities.emplace_back(step.quality);

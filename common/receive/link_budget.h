@@ -7,41 +7,41 @@
 
 namespace vantage {
 
-/// What a rig's frames weigh, as measured.
+/// The measured size of a rig's frames.
 struct RigWeight {
-    /// Of the colour picture, were it packed at another JPEG quality.
+    /// The size of the colour image at another JPEG quality.
     struct AtQuality {
         int quality = 0;
         double colour_bytes = 0;
     };
-    /// Of a smaller picture of the same things.
+    /// The size of a smaller image of the same scene.
     struct AtScale {
         double scale = 1;         ///< of width and height
-        double colour_share = 1;  ///< of the colour's bytes
+        double colour_share = 1;  ///< of the colour image's bytes
     };
     std::string rig;
-    int frames = 0;                   ///< that were measured
-    double colour_bytes = 0;          ///< mean of a frame
-    double other_bytes = 0;           ///< disparity and header, likewise
-    std::vector<AtQuality> ladder{};  ///< from the best to the coarsest
-    std::vector<AtScale> smaller{};   ///< from the largest to the smallest
+    int frames = 0;                   ///< number of measured frames
+    double colour_bytes = 0;          ///< mean per frame
+    double other_bytes = 0;           ///< disparity and header, mean per frame
+    std::vector<AtQuality> ladder{};  ///< from the best quality to the lowest
+    std::vector<AtScale> smaller{};   ///< from the largest image to the smallest
 };
 
 struct LinkLimits {
-    double rig_mbit_s = 1000, host_mbit_s = 1000;  ///< what the networks' interfaces say
-    /// Rigs that a programme without a take asks for at a time; 0: all.
+    double rig_mbit_s = 1000, host_mbit_s = 1000;  ///< nominal rates of the network interfaces
+    /// Number of rigs that a programme without a recording asks for at a time; 0: all.
     std::size_t programme_rigs = 0;
 };
 
-/// What a stage asks of its networks.
+/// The network load of a stage.
 struct LinkBudget {
     struct Rig {
         std::string rig;
         double mbit_s = 0;  ///< on the wire
-        double share = 0;   ///< of what its link carries steadily; above 1 it does not fit
+        double share = 0;   ///< of the planned capacity; above 1 it does not fit
     };
-    /// A way to make it fit: a JPEG quality, or every n-th pulse only, or both; smaller pictures;
-    /// or only the rigs that a programme needs.
+    /// A way to make the stage fit: a JPEG quality, a rate divisor, or both; smaller images; or
+    /// only the rigs that a programme needs.
     struct Proposal {
         std::optional<int> jpeg_quality{};
         int rate_divisor = 1;
@@ -51,13 +51,13 @@ struct LinkBudget {
     };
     std::vector<Rig> rigs;
     double host_mbit_s = 0, host_share = 0;
-    std::vector<Proposal> proposals{};  ///< where it does not fit; of the best picture first
+    std::vector<Proposal> proposals{};  ///< if it does not fit; best picture first
 
     bool fits() const;
 };
 
-/// Frames of `rate_hz` with what Ethernet, IP, TCP and the encryption add. Of a link four fifths
-/// are planned for: frames come in bursts, and other programs send too.
+/// Computes the load at `rate_hz`, including the overhead of Ethernet, IP, TCP and encryption. Four
+/// fifths of a link are planned for, since frames come in bursts and other programs send, too.
 LinkBudget plan_links(const std::vector<RigWeight>& weights, double rate_hz,
                       const LinkLimits& limits);
 

@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-/// 0, or the errno why no connection to this address can be opened.
+/// Tries to connect to an address. Returns 0, or errno.
 int try_address(const addrinfo& address, std::chrono::milliseconds limit) {
     const UniqueFd fd(::socket(address.ai_family,
                                address.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC,
@@ -36,14 +36,14 @@ std::string why_unreachable(const Endpoint& endpoint, std::chrono::milliseconds 
     addrinfo wanted{};
     wanted.ai_family = endpoint.ipv6 ? AF_UNSPEC : AF_INET;
     wanted.ai_socktype = SOCK_STREAM;
-    // A v6 address stands in brackets.
+    // IPv6 addresses are in brackets.
     const std::string host = endpoint.host.starts_with('[')
                                  ? endpoint.host.substr(1, endpoint.host.size() - 2)
                                  : endpoint.host;
     addrinfo* found = nullptr;
     if (const int error = ::getaddrinfo(host.c_str(), endpoint.port.c_str(), &wanted, &found))
         return fmt::format(
-            "the name {} does not resolve ({}): is it spelled right, and known here?", host,
+            "the name {} does not resolve ({}): check its spelling and this computer's DNS", host,
             ::gai_strerror(error));
     const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses(found, &::freeaddrinfo);
     int error = 0;
@@ -51,12 +51,12 @@ std::string why_unreachable(const Endpoint& endpoint, std::chrono::milliseconds 
         if (error = try_address(*address, limit); error == 0) return {};
     if (error == ECONNREFUSED)
         return fmt::format(
-            "connection refused at {}: its computer is up, but vantage-rig does not "
-            "run there, or on another port",
+            "connection refused at {}: the computer is up, but vantage-rig does not run "
+            "there, or uses another port",
             endpoint.text());
     if (error == ETIMEDOUT)
         return fmt::format(
-            "nothing answers at {}: is its computer on, the cable in, the firewall "
+            "nothing answers at {}: check that its computer is on, the cable and the firewall "
             "open?",
             endpoint.text());
     return fmt::format("{} cannot be reached: {}", endpoint.text(), std::strerror(error));

@@ -7,9 +7,9 @@
 
 namespace vantage {
 
-/// Tries to open a connection to the endpoint, and closes it again. Empty if that works; else in a
-/// sentence why not: the name does not resolve, the connection is refused, nothing answers within
-/// `limit`. Looking a name up may take longer than the limit.
+/// Diagnoses an endpoint by opening and closing a connection. Empty if that works, otherwise one
+/// sentence: the name does not resolve, the connection is refused, or nothing answers within
+/// `limit`. A name lookup may take longer than the limit.
 std::string why_unreachable(const Endpoint& endpoint, std::chrono::milliseconds limit);
 
 }  // namespace vantage

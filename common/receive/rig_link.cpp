@@ -15,12 +15,11 @@
 namespace vantage {
 namespace {
 
-/// A link that was refused is tried again this often: the rig may have been told of this host
-/// since.
+/// How often the host retries a refused link, since the rig may have authorized it meanwhile.
 constexpr std::chrono::seconds refusal_retry_period{2};
 constexpr std::chrono::milliseconds first_reconnect_wait{100};
 constexpr std::chrono::milliseconds longest_reconnect_wait{500};
-/// The kernel asks a network that is down ever more seldom; a new attempt asks at once.
+/// Limits a connection attempt: the kernel's own retries become rarer with time.
 constexpr std::chrono::milliseconds connect_limit{500};
 constexpr int send_high_water_mark = 8;
 constexpr std::size_t frame_parts = 3, kept_parts = 4;
@@ -64,7 +63,7 @@ void RigLink::open() {
     const Endpoint endpoint = parse_endpoint(rig_.endpoint, "endpoint");
     socket_ = zmq::socket_t(context_, zmq::socket_type::dealer);
     socket_.set(zmq::sockopt::linger, 0);
-    // Nothing is queued for a rig that is away: a wish is sent again when it is back.
+    // Nothing is queued for an absent rig: the request is sent again when it is back.
     socket_.set(zmq::sockopt::immediate, true);
     socket_.set(zmq::sockopt::sndhwm, send_high_water_mark);
     socket_.set(zmq::sockopt::rcvhwm, 2 * static_cast<int>(max_credit_window));
@@ -81,7 +80,7 @@ void RigLink::open() {
     }
     const std::string events = fmt::format("inproc://events-{}", random_id());
     if (zmq_socket_monitor(socket_.handle(), events.c_str(), ZMQ_EVENT_ALL) != 0)
-        fail("the link to rig {} cannot be watched: {}", rig_.name, zmq_strerror(zmq_errno()));
+        fail("the link to rig {} cannot be monitored: {}", rig_.name, zmq_strerror(zmq_errno()));
     monitor_ = zmq::socket_t(context_, zmq::socket_type::pair);
     monitor_.set(zmq::sockopt::linger, 0);
     monitor_.connect(events);
@@ -118,11 +117,12 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     const bool is_kept = parts.size() == 1 + kept_parts;
     const bool is_report = parts.size() == 2;
     if (parts.size() != 1 && parts.size() != 1 + frame_parts && !is_kept && !is_report)
-        fail("a message of {} parts came from rig {}", parts.size(), rig_.name);
+        fail("rig {} sent a message of {} parts", rig_.name, parts.size());
     RigMessage message = decode_rig_message(bytes_of(parts.front()));
     if (message.refusal.empty() && message.rig != rig_.name)
         message.refusal = fmt::format(
-            "the rig at {} calls itself {}, the stage calls it {}; make name and endpoint agree",
+            "the rig at {} calls itself {}, but the stage calls it {}; make name and endpoint "
+            "agree",
             rig_.endpoint, message.rig, rig_.name);
     if (!message.refusal.empty()) {
         view_.refused = message.refusal;
@@ -131,11 +131,11 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
         return false;
     }
     if (is_kept && (!told_.fetch || !message.fetch || message.fetch->id != told_.fetch->id))
-        fail("a frame that rig {} keeps came, and nobody asked for it", rig_.name);
+        fail("rig {} sent a frame of its own recording that this host did not request", rig_.name);
     if (is_report && (told_.report_id == 0 || message.report_id != told_.report_id ||
                       parts[1].size() > max_report_bytes))
-        fail("a report of {} bytes came from rig {}, and none such was asked for", parts[1].size(),
-             rig_.name);
+        fail("rig {} sent a report of {} bytes that this host did not request", rig_.name,
+             parts[1].size());
     const bool with_frame = parts.size() == 1 + frame_parts;
     account_.hear(message, with_frame);
     view_.heard = now;
@@ -186,7 +186,7 @@ void RigLink::watch(MonotonicTime now) {
             case ZMQ_EVENT_DISCONNECTED:
                 gone_ = true;
                 if (std::exchange(view_.refusal_passes, false)) view_.refused.clear();
-                view_.last_error = fmt::format("the connection to {} broke off", rig_.endpoint);
+                view_.last_error = fmt::format("the connection to {} broke", rig_.endpoint);
                 break;
             case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
                 next_heartbeat_ = now;
@@ -202,10 +202,10 @@ void RigLink::watch(MonotonicTime now) {
             case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
             case ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL:
                 refuse(rig_.public_key.empty()
-                           ? fmt::format("rig {} at {} talks only to hosts with keys, or is no "
+                           ? fmt::format("rig {} at {} accepts only hosts with keys, or is not a "
                                          "rig; set its public_key and the stage's key_file",
                                          rig_.name, rig_.endpoint)
-                           : fmt::format("rig {} at {} does not hold the key that the stage names "
+                           : fmt::format("rig {} at {} does not have the key that the stage states "
                                          "as its public_key; compare with: vantage-rig keys show "
                                          "FILE",
                                          rig_.name, rig_.endpoint),
@@ -242,7 +242,7 @@ void RigLink::tick(const Request& request, MonotonicTime now) {
     message.fetch = request.fetch;
     message.report_id = request.report_id;
     if (now < next_heartbeat_ && message == told_) return;
-    // Not taken while the rig is away; then the heartbeat tries again.
+    // ZeroMQ refuses the message while the rig is absent; the next heartbeat tries again.
     const std::vector<std::byte> bytes = encode(message);
     if (socket_.send(zmq::buffer(bytes), zmq::send_flags::dontwait)) told_ = message;
     next_heartbeat_ = now + heartbeat_period;

@@ -16,21 +16,21 @@
 
 namespace vantage {
 
-/// The connection to one rig: opens it, opens it again after a refusal, keeps the rig informed of
-/// this host's wish and credit, and takes its messages in. Lives on one thread, which polls
-/// socket() and monitor().
+/// The connection to one rig: connects, reconnects after a refusal, sends the host's request and
+/// credit to the rig, and receives its messages. Used by one thread, which polls socket() and
+/// monitor().
 class RigLink {
   public:
-    /// A frame as it came, not decoded yet: a live one, or one that this host fetches.
+    /// A frame that is not decoded yet: a live one, or one that this host fetches.
     struct Delivery {
         RigMessage message;
-        std::shared_ptr<const PackedFrame> frame;  ///< null: `kept` is it
+        std::shared_ptr<const PackedFrame> frame;  ///< null: see `kept`
         std::shared_ptr<const KeptParts> kept;
         MonotonicTime arrival{};
         TaiTime arrival_tai{};
     };
 
-    /// What the host asks of the rig.
+    /// The host's request to the rig.
     struct Request {
         bool streaming = true;
         std::uint32_t rate_divisor = 1;
@@ -44,27 +44,27 @@ class RigLink {
 
     struct View {
         bool connected = false;
-        std::optional<MonotonicTime> heard;  ///< its last message
-        std::uint64_t session = 0;           ///< of its daemon, as it said last
+        std::optional<MonotonicTime> heard;  ///< time of its last message
+        std::uint64_t session = 0;           ///< of its daemon, in its last message
         std::string refused;
-        bool refusal_passes = false;  ///< it is for now: a relay does not reach the rig
+        bool refusal_passes = false;  ///< temporary: a relay does not reach the rig
         std::string last_error;
-        std::uint64_t malformed = 0;  ///< messages that were no delivery, heartbeat or refusal
+        std::uint64_t malformed = 0;  ///< messages that are not valid
         std::uint64_t lost = 0;
         std::uint64_t restarts = 0;
-        LinkCounters link;         ///< as LinkAccount adds it up
-        RigCounters rig_counters;  ///< likewise
-        RigCounters since_start;   ///< as the rig says, since its daemon started
+        LinkCounters link;         ///< summed by LinkAccount
+        RigCounters rig_counters;  ///< summed by LinkAccount
+        RigCounters since_start;   ///< as the rig reports them, since its daemon started
         RigSync sync;
         RigHealth health;
         std::optional<FetchState> fetch;
-        std::shared_ptr<const std::string> report;  ///< the last that came; null: none did
+        std::shared_ptr<const std::string> report;  ///< the last one; null: none
     };
 
-    /// Frames under way or waiting to be decoded.
+    /// Frames that may be on the way or waiting to be decoded.
     static constexpr std::uint32_t credit_window = 4;
 
-    /// Throws Error if the endpoint or a key cannot be.
+    /// Throws Error if the endpoint or a key is invalid.
     RigLink(zmq::context_t& context, const StageConfig::Rig& rig,
             const std::optional<CurveKeys>& host_keys);
     ~RigLink();
@@ -74,14 +74,14 @@ class RigLink {
     zmq::socket_t& socket() { return socket_; }
     zmq::socket_t& monitor() { return monitor_; }
 
-    /// Takes in everything up to the next frame; empty when nothing more is there.
+    /// Processes messages up to the next frame; empty when no more are waiting.
     std::optional<Delivery> receive(MonotonicTime now);
 
-    /// Takes in what became of the connection.
+    /// Processes events of the connection.
     void watch(MonotonicTime now);
 
-    /// Tells the rig, if the wish has changed or a heartbeat is due. Opens the link again when a
-    /// refusal has aged.
+    /// Sends the request if it changed or a heartbeat is due. Reconnects after a refusal when the
+    /// retry period is over.
     void tick(const Request& request, MonotonicTime now);
 
     View view(MonotonicTime now) const;
@@ -101,7 +101,7 @@ class RigLink {
 
     LinkAccount account_;
     View view_;
-    bool gone_ = false;  ///< since it was last heard it refused this host, or the connection broke
+    bool gone_ = false;  ///< refused or disconnected since the last message
     std::optional<MonotonicTime> reopen_;
     MonotonicTime next_heartbeat_{};
     HostMessage told_;

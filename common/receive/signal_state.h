@@ -7,27 +7,26 @@
 
 namespace vantage {
 
-/// What the picture that is shown is, as the operator must know it.
+/// What the programme shows, as the operator has to know it.
 enum class SignalState {
-    live,      ///< the stage as it is now
-    hold,      ///< an instant that the operator holds, or goes back to
-    stale,     ///< the newest instant, but the rigs have given none for a while
-    no_signal  ///< no rig gives pictures
+    live,      ///< the stage now
+    hold,      ///< an instant that the operator holds or replays
+    stale,     ///< the newest instant, but no frame set has come for a while
+    no_signal  ///< no rig delivers frames
 };
 
-/// The newest set may be older than the period by so much before it is stale...
+/// Stale: the newest frame set is older than a period plus this.
 inline constexpr std::chrono::milliseconds stale_after{500};
-/// ...and by so much before nobody can take it for a signal.
+/// No signal: the newest frame set is older than a period plus this.
 inline constexpr std::chrono::milliseconds no_signal_after{3000};
 
-/// `held`: the picture shown is not the newest one, as the operator asked for. `period`: of the
-/// stage's pulses.
+/// `held`: the operator asked for a picture that is not the newest. `period`: of the trigger.
 SignalState signal_state(const ReceiverStatus& status, bool held, std::chrono::nanoseconds period,
                          MonotonicTime now);
 
 /// For people: "LIVE", "HOLD", "STALE", "NO SIGNAL".
 const char* title_of(SignalState state);
-/// For machines: "live", "hold", "stale", "no_signal".
+/// For JSON: "live", "hold", "stale", "no_signal".
 const char* key_of(SignalState state);
 
 }  // namespace vantage

@@ -20,7 +20,7 @@
 #include "common/base/time/time.h"
 #include "common/config/endpoint.h"
 #include "common/receive/frame_set_assembler.h"
-#include "common/receive/outage_book.h"
+#include "common/receive/outage_counter.h"
 #include "common/receive/reachability.h"
 #include "common/receive/rig_link.h"
 #include "common/receive/take_starter.h"
@@ -34,20 +34,20 @@
 namespace vantage {
 namespace {
 
-/// Closed sets that wait for next(); a program that draws slower than the stage runs takes the
-/// newest of these.
+/// Closed frame sets that wait for next(). A program that draws slower than the stage's rate takes
+/// the newest of these.
 constexpr std::size_t max_closed_sets = 4;
 
-/// ZeroMQ reads and decrypts on threads of its own; one would be the limit of a large stage
+/// ZeroMQ reads and decrypts on threads of its own; a single one would limit a large stage
 /// (docs/results/scale.md).
 constexpr std::size_t rigs_a_network_thread = 8;
 
-/// A rig that is not connected is looked into so soon, and then so often.
+/// When a disconnected rig is probed first, and how often after that.
 constexpr std::chrono::milliseconds first_probe_after{300};
 constexpr std::chrono::milliseconds probe_period{2000};
 constexpr std::chrono::milliseconds probe_limit{1000};
 
-/// Between lines about a rig's bad messages.
+/// The shortest time between two log lines about a rig's invalid messages.
 constexpr std::chrono::seconds complaint_period{10};
 
 std::vector<std::string> names_of(const StageConfig& stage) {
@@ -75,7 +75,7 @@ FrameSetAssembler::Options assembler_options(const StageConfig& stage) {
 }  // namespace
 
 struct StageReceiver::Impl {
-    /// One rig: its link on the I/O thread, its decoder on a thread of its own, so that a rig's
+    /// One rig: its link on the I/O thread, and its decoder on a thread of its own, so that its
     /// frames keep their order.
     struct Rig {
         Rig(zmq::context_t& context, const StageConfig::Rig& config,
@@ -93,20 +93,20 @@ struct StageReceiver::Impl {
         RigLink link;
         BoundedQueue<RigLink::Delivery> inbox;
         std::atomic<std::uint64_t> unhandled = 0;
-        std::atomic<bool> is_looked_at = true;
+        std::atomic<bool> is_decoded = true;
         std::thread decoder;
 
-        // The decoder's own: the newest right picture, and of which of the rig's sessions.
+        // Used by the decoder's thread only: the newest right image, and the session it is from.
         SharedBytes right_jpeg;
         std::uint64_t session = 0;
 
-        // Under Impl::mutex.
+        // Guarded by Impl::mutex.
         RigStatus status;
-        bool relay_answers = false;  ///< and says why the rig does not
+        bool relay_answers = false;  ///< a relay answers for the rig, with its reason
         std::uint64_t undecodable_frames = 0;
         RigLink::Request request;
         std::shared_ptr<const std::string> report;
-        OutageBook outages;
+        OutageCounter outages;
         LogLimiter complaints{complaint_period};
         PercentileRecorder latency_ms, network_ms, decode_ms;
     };
@@ -152,7 +152,7 @@ struct StageReceiver::Impl {
         try {
             while (!stopping) turn();
         } catch (const std::exception& error) {
-            log_error("receiving came to an end: {}", error.what());
+            log_error("receiving ended: {}", error.what());
             const std::lock_guard lock(mutex);
             failure = error.what();
         }
@@ -170,7 +170,7 @@ struct StageReceiver::Impl {
         for (std::size_t number = 0; number < rigs.size(); ++number) {
             const auto& rig = rigs[number];
             rig->link.watch(now);
-            // A frame at a time: a rig that floods this host gets no more of its turn than others.
+            // One frame at a time, so that a rig that floods this host does not delay the others.
             if (std::optional<RigLink::Delivery> delivery = rig->link.receive(now)) {
                 if (tap)
                     tap({number, delivery->frame, delivery->message.counters, delivery->arrival,
@@ -190,9 +190,9 @@ struct StageReceiver::Impl {
         for (std::size_t i = 0; i < rigs.size(); ++i) {
             Rig& rig = *rigs[i];
             show(rig, rig.link.view(now), now);
-            // What came before the rig was gone still joins its sets.
+            // Frames that arrived before the rig disconnected still join their frame sets.
             assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
-            assembler.set_at_stage_rate(i, rate_worry(rig.status).empty());
+            assembler.set_at_stage_rate(i, rate_warning(rig.status).empty());
             assembler.set_asked(i, rig.request.streaming ? rig.request.rate_divisor : 0);
             note_step(rig, i);
         }
@@ -221,7 +221,7 @@ struct StageReceiver::Impl {
         for (const auto& rig : rigs) all.push_back({rig->status.connected, rig->status.sync});
         const auto first = starter.update(all, TaiClock::now(), now);
         for (const std::size_t late : starter.laggards(all, now))
-            log_warning("rig {} is not ready; it joins when it is", rigs[late]->name);
+            log_warning("rig {} is not ready; it will join when it is", rigs[late]->name);
         if (!first || first_pulse != 0) return;
         first_pulse = *first;
         log_info("the take's first pulse is {}", first_pulse);
@@ -240,12 +240,14 @@ struct StageReceiver::Impl {
         return !rig.status.connected && rig.status.refused.empty() && !rig.relay_answers;
     }
 
-    /// Finds out why a rig is not connected.
+    /// Diagnoses why a rig is not connected.
     void probe(Rig& rig) {
         std::string reason = why_unreachable(rig.endpoint, probe_limit);
         if (reason.empty())
-            reason = fmt::format("something at {} takes connections and does not speak as a rig",
-                                 rig.endpoint.text());
+            reason = fmt::format(
+                "something at {} accepts connections but does not speak Vantage's "
+                "protocol",
+                rig.endpoint.text());
         const std::lock_guard lock(mutex);
         if (!rig.status.connected && !rig.relay_answers) rig.status.unreachable = std::move(reason);
     }
@@ -264,7 +266,7 @@ struct StageReceiver::Impl {
         Rig& rig = *rigs[number];
         FrameDecoder decoder;
         std::chrono::milliseconds patience = first_probe_after;
-        // Beside the decoder: a rig that is back meanwhile waits for no name to be looked up.
+        // On another thread, so that a rig that returns meanwhile does not wait for a name lookup.
         std::future<void> probing;
         while (true) {
             const std::optional<RigLink::Delivery> delivery = rig.inbox.pop_for(patience);
@@ -295,16 +297,16 @@ struct StageReceiver::Impl {
         const MonotonicTime start = MonotonicClock::now();
         const PackedFrame& packed = *delivery.frame;
         auto frame = std::make_shared<RigFrame>(
-            rig.is_looked_at ? decoder.decode(packed.header, packed.colour, packed.disparity)
-                             : decode_frame_head(packed.header).frame);
+            rig.is_decoded ? decoder.decode(packed.header, packed.colour, packed.disparity)
+                           : decode_frame_head(packed.header).frame);
         frame->packed = delivery.frame;
         if (frame->rig != delivery.message.rig || frame->session != delivery.message.session)
-            fail("a frame of rig {} came under the name of rig {}", frame->rig,
+            fail("a frame of rig {} came over the link of rig {}", frame->rig,
                  delivery.message.rig);
         const MonotonicTime end = MonotonicClock::now();
         const TaiTime decoded = TaiClock::now();
 
-        // It comes now and then, and who takes some of the frames only is to see it too.
+        // The right image comes occasionally; a consumer that takes only some frames needs it, too.
         if (!frame->right_jpeg && frame->session == rig.session) frame->right_jpeg = rig.right_jpeg;
         rig.right_jpeg = frame->right_jpeg;
         rig.session = frame->session;
@@ -315,7 +317,7 @@ struct StageReceiver::Impl {
         rig.status.rig_times = frame->times;
         ++rig.status.received;
         switch (assembler.add(number, std::move(frame), delivery.arrival)) {
-            case FrameFate::in_background:
+            case FrameFate::in_frame_set:
                 break;
             case FrameFate::late:
                 ++rig.status.late;
@@ -368,12 +370,12 @@ struct StageReceiver::Impl {
         status.outages = rig.outages.outages();
         status.outage_s = std::chrono::duration<double>(rig.outages.length(now)).count();
         status.restarts = view.restarts;
-        const std::string rate_before = rate_worry(status);
+        const std::string rate_before = rate_warning(status);
         if (goes_on && view.sync.clock_steps > status.sync.clock_steps)
             log_warning(
-                "rig {}: {}; what it films now is so far off the other rigs' pictures, or was "
-                "before: see that its clock follows the stage's, and prove it by light "
-                "(vantage-calib sync)",
+                "rig {}: {}; its frames are, or were, off the other rigs' by as much: check that "
+                "its "
+                "clock follows the stage's, and verify the timing by light (vantage-calib sync)",
                 rig.name, clock_step_text(view.sync));
         status.connected = view.connected;
         status.refused = std::move(view.refused);
@@ -385,7 +387,7 @@ struct StageReceiver::Impl {
         status.own_tai_offset_s = read_kernel_clock().tai_offset_s;
         status.health = std::move(view.health);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
-        if (const std::string rate = rate_worry(status);
+        if (const std::string rate = rate_warning(status);
             warns && rate != rate_before && !rate.empty())
             log_warning("rig {}: {}", rig.name, rate);
         rig.report = std::move(view.report);
@@ -396,8 +398,8 @@ struct StageReceiver::Impl {
     static void complain(Rig& rig, std::uint64_t undecodable, MonotonicTime now) {
         const std::uint64_t more = undecodable - std::exchange(rig.status.undecodable, undecodable);
         if (const auto times = rig.complaints.count(more, now))
-            log_warning("messages of rig {} at {} that are none or damaged: {}; the last fault: {}",
-                        rig.name, rig.status.endpoint, *times, rig.status.last_error);
+            log_warning("invalid messages of rig {} at {}: {}; the last fault: {}", rig.name,
+                        rig.status.endpoint, *times, rig.status.last_error);
     }
 
     const Purpose purpose;
@@ -405,11 +407,11 @@ struct StageReceiver::Impl {
     zmq::context_t context;
     std::vector<std::unique_ptr<Rig>> rigs;
 
-    mutable std::mutex mutex;  ///< of what follows and of the rigs' status; never held over a
-                               ///< socket call or a decode
+    mutable std::mutex mutex;  ///< guards the members below and the rigs' status; never held
+                               ///< during a socket call or a decode
     FrameSetAssembler assembler;
     TakeStarter starter;
-    std::uint64_t first_pulse = 0;  ///< 0: not announced yet; only the I/O thread uses it
+    std::uint64_t first_pulse = 0;  ///< 0: not announced yet; used by the I/O thread only
     std::uint64_t sets = 0;
     std::uint64_t complete_frame_sets = 0;
     std::optional<MonotonicTime> newest_frame_set;
@@ -430,7 +432,7 @@ std::optional<FrameSet> StageReceiver::next(std::chrono::nanoseconds timeout) {
     std::optional<FrameSet> set = impl_->closed_frame_sets.pop_for(timeout);
     if (!set) {
         const std::lock_guard lock(impl_->mutex);
-        if (!impl_->failure.empty()) fail("receiving came to an end: {}", impl_->failure);
+        if (!impl_->failure.empty()) fail("receiving ended: {}", impl_->failure);
     }
     return set;
 }
@@ -463,8 +465,8 @@ void StageReceiver::ask(std::string_view rig_name, bool streaming, std::uint32_t
     impl_->wake.notify();
 }
 
-void StageReceiver::look_at(std::string_view rig_name, bool is_looked_at) {
-    impl_->named(rig_name).is_looked_at = is_looked_at;
+void StageReceiver::set_decoded(std::string_view rig_name, bool is_decoded) {
+    impl_->named(rig_name).is_decoded = is_decoded;
 }
 
 void StageReceiver::ask_for_reports() {

@@ -50,7 +50,7 @@ double StageStep::elect(MonotonicTime now) const {
     const auto agree = [&](double a, double b) {
         return std::abs(a - b) <= as_ns(options_.tolerance);
     };
-    // Most votes of rigs at the stage's rate, then of all, then the incumbent, then the lead.
+    // In this order: most rigs at the stage's rate, most rigs, the current step, the largest lead.
     std::tuple<int, int, bool, double> best{0, 0, false, 0};
     for (std::size_t candidate = 0; candidate < rigs_.size(); ++candidate) {
         if (!active(candidate, now)) continue;

@@ -10,48 +10,47 @@
 
 namespace vantage {
 
-/// Tells which rigs count pulses in step. Every frame says where its rig is: index times period,
-/// less the time it came. Rigs of one stage agree in that up to their latencies; a rig that was
-/// given another epoch, or whose clock runs free, stands apart. The stage's step is where most
-/// active rigs agree within the tolerance (ties: where it was), so that one rig's jump takes
-/// nothing from the others, and a jump of all is followed. Rigs at another rate than the stage's
-/// count differently by nature: they have a say only where none is at the stage's. Clocks come in
-/// as arguments; not thread-safe.
+/// Determines which rigs count pulses in step. Every frame measures its rig's lead: index times
+/// period minus the time of its arrival. The leads of one stage are equal up to the rigs'
+/// latencies; a rig with another epoch or a free-running clock differs. The stage's step is the
+/// lead on which most active rigs agree within the tolerance (ties: the current one), so that the
+/// jump of one rig does not affect the others, and a jump of all is followed. Rigs at another rate
+/// than the stage's count only if no rig is at the stage's rate. Clock readings are arguments; not
+/// thread-safe.
 class StageStep {
   public:
     struct Options {
         std::chrono::nanoseconds period;
-        std::chrono::nanoseconds tolerance;      ///< agreement, and how far ahead a rig may be
-        std::chrono::nanoseconds silence_limit;  ///< a rig without frames this long has no vote
-        std::chrono::nanoseconds behind_limit;   ///< further behind is another count, not lateness
+        std::chrono::nanoseconds tolerance;      ///< between leads, and for a rig that is ahead
+        std::chrono::nanoseconds silence_limit;  ///< a rig silent for longer does not count
+        std::chrono::nanoseconds behind_limit;   ///< a rig further behind counts differently
     };
 
     enum class Verdict { in_step, out_of_step };
 
     struct Result {
         Verdict verdict = Verdict::in_step;
-        /// The stage's indices fell back by more than behind_limit: what was closed before says
-        /// nothing about what comes.
+        /// The stage's indices fell by more than behind_limit, so that earlier closed frame sets
+        /// have no relation to new ones.
         bool began_anew = false;
     };
 
     StageStep(std::size_t rigs, const Options& options);
 
-    /// A frame of pulse `trigger_index` came from this rig. `new_session`: its daemon was
-    /// restarted.
+    /// Takes in a frame of pulse `trigger_index`. `new_session`: the rig's daemon was restarted.
     Result hear(std::size_t rig, std::uint64_t trigger_index, bool new_session,
                 MonotonicTime arrival);
 
-    /// At first every rig is.
+    /// Initially true for every rig.
     void set_at_stage_rate(std::size_t rig, bool is_at_it) { rigs_[rig].at_stage_rate = is_at_it; }
 
-    /// A frame came from it within the silence limit.
+    /// Whether a frame came from the rig within the silence limit.
     bool active(std::size_t rig, MonotonicTime now) const;
     Verdict verdict(std::size_t rig) const;
 
   private:
     struct Rig {
-        double lead_ns = 0;  ///< index times period less arrival
+        double lead_ns = 0;  ///< index times period minus arrival
         std::optional<MonotonicTime> heard;
         bool at_stage_rate = true;
     };
@@ -60,7 +59,7 @@ class StageStep {
 
     Options options_;
     std::vector<Rig> rigs_;
-    std::optional<double> step_ns_;  ///< lead of the stage
+    std::optional<double> step_ns_;  ///< the lead of the stage
 };
 
 }  // namespace vantage

@@ -12,10 +12,10 @@
 
 namespace vantage {
 
-/// Starts a take in order: every rig arms and says that it is ready, then the first pulse is
-/// announced, then it comes. A take that runs already, as after the host was started anew, goes on
-/// with its pulses; a rig that comes later joins them. A rig that does not come holds up the others
-/// for so long and no longer. Clocks come in as arguments.
+/// Coordinates the start of the trigger pulses: every rig arms and reports that it is ready, then
+/// the first pulse is announced, then it comes. If pulses already run, as after a restart of the
+/// host, they continue. A rig that comes later joins them. An absent rig delays the others only up
+/// to a limit. Clock readings are arguments. Not thread-safe.
 class TakeStarter {
   public:
     struct Rig {
@@ -23,20 +23,21 @@ class TakeStarter {
         RigSync sync;
     };
 
-    /// Rigs that are not ready are waited for this long after the first one was.
+    /// The longest wait for rigs that are not ready, after the first one was.
     static constexpr std::chrono::seconds longest_wait{15};
-    /// From the announcement to the first pulse: several heartbeats.
+    /// The time from the announcement to the first pulse: several heartbeats.
     static constexpr std::chrono::seconds notice{1};
-    /// Rigs become ready one after the other; who is not so long after the announcement is named.
+    /// A rig that is not ready this long after the announcement is reported; rigs become ready one
+    /// after the other.
     static constexpr std::chrono::seconds ready_patience{3};
 
     explicit TakeStarter(const PulseGrid& grid) : grid_(grid) {}
 
-    /// To be called again and again; the first pulse once it is known.
+    /// Call it periodically. Returns the first pulse once it is known.
     std::optional<std::uint64_t> update(const std::vector<Rig>& rigs, TaiTime tai,
                                         MonotonicTime now);
 
-    /// Which rigs are not ready although the take's first pulse is known for a while: told once.
+    /// The rigs that are not ready `ready_patience` after the announcement; each returned once.
     std::vector<std::size_t> laggards(const std::vector<Rig>& rigs, MonotonicTime now);
 
   private:

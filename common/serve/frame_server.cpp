@@ -19,18 +19,18 @@
 namespace vantage {
 namespace {
 
-/// Credit bounds the frames on a connection; this only has to be above it with its heartbeats.
+/// Credit bounds the frames on a connection; this limit only has to exceed it with its heartbeats.
 constexpr int send_high_water_mark = 4 * static_cast<int>(max_credit_window);
 constexpr int receive_high_water_mark = 64;
-/// A host that talks without end does not keep frames from leaving.
+/// Bounds the messages received at a time, so that a host that floods does not stop frames.
 constexpr int messages_per_turn = 64;
-/// At the end, for hosts to take what was sent. Without it ZeroMQ aborts where a host leaves at
-/// that moment with a frame half sent (libzmq issue 3442).
+/// How long a closing socket waits for hosts to receive. Without it, ZeroMQ aborts if a host leaves
+/// while a frame is half sent (libzmq issue 3442).
 constexpr std::chrono::milliseconds farewell{200};
-/// Between lines about messages that are no host's, and between those about slow hosts.
+/// The shortest time between two log lines about invalid messages, and about slow hosts.
 constexpr std::chrono::seconds complaint_period{10};
 
-/// The key a message came under, as HostAdmission let it in; empty without keys.
+/// The key of the sender, as HostAdmission admitted it; empty without keys.
 std::string host_key_of(zmq::message_t& part) { return property_of(part, "User-Id"); }
 
 std::string address_of(zmq::message_t& part) {
@@ -59,7 +59,7 @@ FrameServer::~FrameServer() {
 
 void FrameServer::check() const {
     const std::lock_guard lock(mutex_);
-    if (!failure_.empty()) fail("publishing of rig {} came to an end: {}", rig_, failure_);
+    if (!failure_.empty()) fail("publishing of rig {} ended: {}", rig_, failure_);
 }
 
 std::uint64_t FrameServer::malformed() const {
@@ -104,7 +104,7 @@ void FrameServer::run() {
     try {
         while (!stopping_) turn();
     } catch (const std::exception& error) {
-        log_error("publishing of rig {} came to an end: {}", rig_, error.what());
+        log_error("publishing of rig {} ended: {}", rig_, error.what());
         const std::lock_guard lock(mutex_);
         failure_ = error.what();
     }
@@ -142,8 +142,8 @@ void FrameServer::beat(MonotonicTime now) {
     if (overrun.frames > 0) slow_host_ = overrun.host;
     if (const auto frames = overruns_.count(overrun.frames, now))
         log_warning(
-            "rig {}: frames made room for newer ones that hosts were too slow to take: {}; "
-            "the last was for {}",
+            "rig {}: dropped {} frames for newer ones because hosts were too slow; the last was "
+            "for {}",
             rig_, *frames, slow_host_);
 }
 

@@ -21,61 +21,61 @@
 
 namespace vantage {
 
-/// Serves one rig's frames to any number of hosts, each as fast as it takes them and no faster: the
-/// socket, its thread, and the books (HostLinks). With keys, only authorized hosts get in and
-/// everything is encrypted; without, only programs on this computer can be served.
+/// Serves one rig's frames to any number of hosts, to each at the rate it takes them. Owns the
+/// socket, its thread and the accounting (HostLinks). With keys, only authorized hosts are admitted
+/// and everything is encrypted; without keys, only programs on this computer are served.
 class FrameServer {
   public:
     struct Settings {
         std::string bind;                         ///< tcp://HOST:PORT
-        std::filesystem::path key_file;           ///< the CURVE key pair hosts know it by
-        std::filesystem::path authorized_hosts;   ///< public keys of the hosts, one a line
-        int queue_frames = 4;                     ///< that may wait for one host
-        const char* bind_option = "stream.bind";  ///< what `bind` is called in a refusal
+        std::filesystem::path key_file;           ///< the rig's CURVE key pair
+        std::filesystem::path authorized_hosts;   ///< public keys of the hosts, one per line
+        int queue_frames = 4;                     ///< frames that may wait for one host
+        const char* bind_option = "stream.bind";  ///< name of `bind` in error messages
     };
 
-    /// Throws Error if the endpoint cannot be bound, a key or list cannot be read, or an endpoint
-    /// beyond loopback is asked for without keys.
+    /// Throws Error if the endpoint cannot be bound, a key or the list cannot be read, or an
+    /// endpoint beyond loopback has no keys.
     FrameServer(const Settings& settings, std::string rig, std::uint64_t session);
     ~FrameServer();
     FrameServer(const FrameServer&) = delete;
     FrameServer& operator=(const FrameServer&) = delete;
 
-    /// Does this with the books, under their lock. Any thread. `work` must not wait.
+    /// Calls `work` with the accounting, under its lock. Any thread. `work` must not block.
     template <class Work>
     auto change(Work work) {
         const std::lock_guard lock(mutex_);
         return work(links_);
     }
-    /// The same; whatever is due to be sent then is sent.
+    /// Does the same and then sends what is due.
     template <class Work>
     void tell(Work work) {
         change(work);
         wake();
     }
-    /// Sends what is due.
+    /// Makes the thread send what is due.
     void wake() { wake_.notify(); }
-    /// Throws Error if serving came to an end, with the reason.
+    /// Throws Error with the reason if serving ended.
     void check() const;
-    /// Waits until a host's message makes this true of the books. Any thread.
+    /// Waits until a message of a host makes `question` true. Any thread.
     template <class Question>
     bool wait_for(std::chrono::nanoseconds timeout, Question question) {
         std::unique_lock lock(mutex_);
         return heard_.wait_for(lock, timeout, [&] { return question(links_); });
     }
-    /// Lets those go on that wait.
+    /// Wakes threads that wait.
     void wake_waiting() { heard_.notify_all(); }
 
-    /// The first pulse of the take as a host last announced it; 0: none did. Any thread.
+    /// The first trigger pulse as last announced by a host; 0: none. Any thread.
     std::uint64_t announced_pulse() const { return announced_pulse_; }
-    /// Messages that were no host's. Any thread.
+    /// Number of invalid messages. Any thread.
     std::uint64_t malformed() const;
-    /// Connections that came to nothing, since whoever opened them is no host. Any thread.
+    /// Number of connections that were not a host's. Any thread.
     std::uint64_t refused_connections() const { return refused_connections_; }
 
-    /// With the port that was bound, where the settings left it open.
+    /// The bound endpoint, with its port.
     const std::string& endpoint() const { return endpoint_; }
-    /// Z85; empty without keys.
+    /// In Z85; empty without keys.
     const std::string& public_key() const { return public_key_; }
 
   private:
@@ -90,13 +90,13 @@ class FrameServer {
     const std::string rig_;
     std::string public_key_, endpoint_;
 
-    mutable std::mutex mutex_;  ///< of links_, failure_ and malformed_; never held over a socket
-                                ///< call
+    mutable std::mutex mutex_;  ///< guards links_, failure_ and malformed_; never held during a
+                                ///< socket call
     HostLinks links_;
     std::string failure_;
     std::uint64_t malformed_ = 0;
     std::condition_variable heard_;
-    LogLimiter complaints_, overruns_;  ///< the thread's
+    LogLimiter complaints_, overruns_;  ///< used by the thread only
     std::string slow_host_;
     std::atomic<std::uint64_t> announced_pulse_ = 0;
 

@@ -16,12 +16,13 @@ namespace {
 constexpr const char* zap_endpoint = "inproc://zeromq.zap.01";
 constexpr std::size_t key_bytes = 32;
 
-/// The parts of a request, in their order; a CURVE request's last is the host's key.
+/// The parts of a request in order; the last part of a CURVE request is the host's key.
 enum RequestPart { version, request_id, domain, address, identity, mechanism, key, request_parts };
 
-/// A host that keeps knocking is logged this often.
+/// The shortest time between two log lines about one refused host.
 constexpr std::chrono::seconds log_period{10};
-/// And so many of them each for itself: one that makes a new key each time does not fill the log.
+/// The number of refused keys that are logged individually, so that a host that makes a new key
+/// for each attempt does not fill the log.
 constexpr std::size_t most_told = 8;
 
 }  // namespace
@@ -33,7 +34,7 @@ HostAdmission::HostAdmission(zmq::context_t& context, std::filesystem::path auth
       others_(log_period) {
     std::error_code gone;
     read_version_ = std::filesystem::last_write_time(path_, gone);
-    if (hosts_.empty()) log_warning("{} lists no host: none is admitted", path_.string());
+    if (hosts_.empty()) log_warning("{} lists no hosts, so none is admitted", path_.string());
     socket_.set(zmq::sockopt::linger, 0);
     socket_.bind(zap_endpoint);
 }
@@ -81,12 +82,11 @@ bool HostAdmission::admits(const std::string& key, const std::string& address) {
     std::erase_if(told_, [&](const auto& told) { return now - told.second > log_period; });
     if (told_.contains(key)) return false;
     if (told_.size() < most_told) {
-        log_warning("a host at {} with key {} is refused; add the key to {} to admit it", address,
+        log_warning("refused a host at {} with key {}; to admit it, add the key to {}", address,
                     key, path_.string());
         told_[key] = now;
     } else if (const auto times = others_.count(1, now)) {
-        log_warning("hosts with ever other keys are refused: {}; the last is at {}", *times,
-                    address);
+        log_warning("refused hosts with further keys: {}; the last is at {}", *times, address);
     }
     return false;
 }

@@ -10,18 +10,17 @@
 
 namespace vantage {
 
-/// Says which host keys are let in: answers the authentication requests (ZAP, ZeroMQ RFC 27) of the
-/// sockets of one context. Lives on one thread, which polls socket() and calls answer().
+/// Authenticates hosts by their keys: answers the ZAP requests (ZeroMQ RFC 27) of the sockets of
+/// one context. Used by one thread, which polls socket() and calls answer().
 class HostAdmission {
   public:
-    /// Throws Error if the list cannot be read. It is read again when it changes; hosts that are
-    /// connected stay so.
+    /// Throws Error if the list cannot be read. A changed list is read again; connected hosts stay
+    /// connected.
     HostAdmission(zmq::context_t& context, std::filesystem::path authorized_hosts);
 
     zmq::socket_t& socket() { return socket_; }
 
-    /// Answers one request, if one is there. Refused keys are logged, a few by name and once in a
-    /// while.
+    /// Answers one waiting request. Logs refused keys, within limits.
     void answer();
 
   private:
@@ -32,7 +31,7 @@ class HostAdmission {
     std::filesystem::file_time_type read_version_;
     std::map<std::string, std::string> hosts_;
     zmq::socket_t socket_;
-    std::map<std::string, MonotonicTime> told_;  ///< of which keys, and when: a few
+    std::map<std::string, MonotonicTime> told_;  ///< when each logged key was logged
     LogLimiter others_;
 };
 

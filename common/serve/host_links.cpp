@@ -12,10 +12,10 @@
 namespace vantage {
 namespace {
 
-/// A host that is busy for a moment keeps its queue; one that is gone gives it up.
+/// A host keeps its queue while it is busy, and loses it after this silence.
 constexpr auto silence_limit = 2 * liveness_limit;
 
-/// Refusals waiting for the socket; a flood of bad messages gets no more answers than this.
+/// Refusals that wait for the socket; further ones are not sent, so that a flood is not answered.
 constexpr std::size_t max_refusals = 32;
 
 std::string display_name(const std::string& host_key) {
@@ -32,7 +32,7 @@ HostLinks::HostLinks(std::string rig, std::uint64_t session, std::size_t queue_f
                            rig_)) {}
 
 void HostLinks::offer(std::shared_ptr<const PackedFrame> frame) {
-    // Beside a view its raw pair is no second instant.
+    // A raw pair beside a view of the same pulse does not count as published a second time.
     if (!frame->is_raw_pair || serves_raw_pairs_only()) ++rig_counters_.published;
     pass_on(frame);
 }
@@ -158,7 +158,7 @@ void HostLinks::hear_fetch(Link& link, const std::optional<FetchRequest>& reques
 }
 
 std::optional<HostLinks::FetchJob> HostLinks::next_fetch() {
-    // In turn: the first one behind the last that was served.
+    // Round robin: start behind the link that was served last.
     const auto last = std::find_if(links_.begin(), links_.end(),
                                    [&](const Link& link) { return link.id == last_served_; });
     const auto behind =
@@ -209,7 +209,7 @@ void HostLinks::refuse(const Route& route, std::string sentence, bool passes) {
 void HostLinks::expire(MonotonicTime now) {
     for (Link& link : links_)
         if (link.attached && now - link.heard > silence_limit) {
-            log_info("{} went silent and is let go", display_name(link.host_key));
+            log_info("{} went silent and is removed", display_name(link.host_key));
             let_go(link);
         }
 }
@@ -258,14 +258,14 @@ void HostLinks::undelivered(const Outgoing& outgoing) {
             ++dropped_here_;
         }
         if (link.attached && link.route == outgoing.route) {
-            log_info("{} is gone", display_name(link.host_key));
+            log_info("{} disconnected", display_name(link.host_key));
             let_go(link);
         }
     }
 }
 
 void HostLinks::set_rig_counters(const RigCounters& counters) {
-    // Frames carry the counts of the moment they were captured, which may lie behind the newest.
+    // A frame carries the counts of the moment of its capture, which may precede the newest.
     rig_counters_.captured = std::max(rig_counters_.captured, counters.captured);
     rig_counters_.missed = std::max(rig_counters_.missed, counters.missed);
     rig_counters_.late = std::max(rig_counters_.late, counters.late);

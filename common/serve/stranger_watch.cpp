@@ -16,13 +16,13 @@
 namespace vantage {
 namespace {
 
-/// ZeroMQ's thread waits where as many are not read, and with it all frames do: beyond what a flood
-/// brings in a second.
+/// Capacity of the event queue, above the events per second of a flood. When it is full, ZeroMQ's
+/// I/O thread blocks and all frames stop.
 constexpr int events_waiting = 200'000;
-/// Strangers who knock without end do not keep frames from leaving.
+/// Bounds the events handled at a time, so that a flood of connections does not stop frames.
 constexpr int events_per_turn = 256;
 
-/// An event may have waited so long when it is looked at.
+/// The longest time that an event may have waited when it is handled.
 constexpr std::chrono::milliseconds late_look{500};
 
 constexpr int watched_events =
@@ -30,7 +30,7 @@ constexpr int watched_events =
     ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL | ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL |
     ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
 
-/// Of the other end; empty where that has left by now, or its successor's of the same number.
+/// The address of the other end; empty if it has left, or if its descriptor was reused.
 std::string peer_address(int connection) {
     sockaddr_storage bytes{};
     socklen_t size = sizeof bytes;
@@ -48,14 +48,14 @@ StrangerWatch::StrangerWatch(zmq::context_t& context, zmq::socket_t& watched, st
     : rig_(std::move(rig)), watched_(watched), events_(context, zmq::socket_type::pair) {
     const std::string events = fmt::format("inproc://strangers-{}", random_id());
     if (zmq_socket_monitor(watched_.handle(), events.c_str(), watched_events) != 0)
-        fail("connections to rig {} cannot be watched: {}", rig_, zmq_strerror(zmq_errno()));
+        fail("connections to rig {} cannot be monitored: {}", rig_, zmq_strerror(zmq_errno()));
     events_.set(zmq::sockopt::linger, 0);
     events_.set(zmq::sockopt::rcvhwm, events_waiting);
     events_.connect(events);
 }
 
 StrangerWatch::~StrangerWatch() {
-    // Room first: stopping waits for an event that is being written.
+    // Drain the queue first, since stopping waits for an event that is being written.
     zmq::message_t part;
     for (int i = 0; i < events_waiting && events_.recv(part, zmq::recv_flags::dontwait); ++i) {
     }
@@ -85,16 +85,16 @@ void StrangerWatch::look(MonotonicTime now) {
         Complaint& complaint = complaints_[kind];
         if (const auto times = complaint.limiter.count(std::exchange(complaint.fresh, 0), now))
             log_warning(
-                "rig {}: connections that are no host's were refused: {}; the last, from "
-                "{}, {}",
+                "rig {}: refused connections that are not from a host: {}; the last, from {}, "
+                "{}",
                 rig_, *times, complaint.address.empty() ? "an unknown address" : complaint.address,
                 reason(static_cast<Kind>(kind)));
     }
 }
 
 void StrangerWatch::take_in(std::uint16_t event, std::uint32_t value, MonotonicTime now) {
-    // Only the first and the last event of a connection name it. One thread of ZeroMQ's makes them
-    // all, and the end follows its failure at once; after a refused key it may follow later.
+    // Only the first and the last event of a connection identify it. One ZeroMQ thread writes all
+    // events. The end follows a failure at once, but may follow later after a refused key.
     switch (event) {
         case ZMQ_EVENT_ACCEPTED:
             open_[static_cast<int>(value)] = {peer_address(static_cast<int>(value)), now};
@@ -129,7 +129,7 @@ void StrangerWatch::end(int descriptor, MonotonicTime now) {
     if (!kind) {
         if (connection.is_heard) return;
         if (unlisted_ > 0) {
-            // HostAdmission has told of it, with its key.
+            // HostAdmission has logged it, with its key.
             --unlisted_;
             ++refused_;
             return;
@@ -138,7 +138,7 @@ void StrangerWatch::end(int descriptor, MonotonicTime now) {
             --unheard_hosts_;
             return;
         }
-        // What does not even begin like ZeroMQ ends without a failure.
+        // Data that does not begin like ZeroMQ's greeting ends without a failure event.
         kind = Kind::foreign;
     }
     if (kind == Kind::left && now - connection.since >= handshake_limit - late_look)
@@ -152,15 +152,16 @@ void StrangerWatch::end(int descriptor, MonotonicTime now) {
 std::string StrangerWatch::reason(Kind kind) const {
     switch (kind) {
         case Kind::silent:
-            return fmt::format("had not greeted as hosts do after {} s", handshake_limit.count());
+            return fmt::format("did not finish the handshake within {} s", handshake_limit.count());
         case Kind::left:
-            return "left before it had greeted";
+            return "closed the connection before the handshake";
         case Kind::keyless:
-            return has_keys_ ? "comes without a key" : "comes with a key, and this rig has none";
+            return has_keys_ ? "connected without a key"
+                             : "connected with a key, and this rig has none";
         case Kind::forged:
-            return "does not hold this rig's public key, or repeats or forges a handshake";
+            return "does not have this rig's public key, or repeated or forged a handshake";
         default:
-            return "says what no host says";
+            return "does not speak Vantage's protocol";
     }
 }
 

@@ -14,16 +14,16 @@
 
 namespace vantage {
 
-/// Logs and counts connections to a listening socket that end before they are a host's. Strangers
-/// may come in floods: of each kind a line is written once in a while, with how many it stands for.
-/// Lives on the socket's thread, which polls socket() and calls look().
+/// Logs and counts connections to a listening socket that end before they turn out to be a host's.
+/// Each kind is logged once in a while, with its count. Used by the socket's thread, which polls
+/// socket() and calls look().
 class StrangerWatch {
   public:
     /// The socket has to close a connection whose handshake takes longer.
     static constexpr std::chrono::seconds handshake_limit{5};
 
-    /// To be made before the socket is bound, and to go before it does. Throws Error if the socket
-    /// cannot be watched.
+    /// Construct it before the socket is bound, and destroy it before the socket. Throws Error if
+    /// the socket cannot be monitored.
     StrangerWatch(zmq::context_t& context, zmq::socket_t& watched, std::string rig);
     ~StrangerWatch();
     StrangerWatch(const StrangerWatch&) = delete;
@@ -31,14 +31,14 @@ class StrangerWatch {
 
     zmq::socket_t& socket() { return events_; }
 
-    /// Whether hosts have to show a key, which decides what strangers are told apart by.
+    /// Sets that hosts need a key, which changes how connections are classified.
     void expect_keys() { has_keys_ = true; }
-    /// A message came by this connection, so it is a host's.
+    /// Takes in a message; its connection is a host's.
     void hear(zmq::message_t& part);
-    /// Takes in what has happened, and writes the lines that are due. Never waits.
+    /// Handles waiting events and logs lines that are due. Never waits.
     void look(MonotonicTime now);
 
-    /// Connections so far that came to nothing.
+    /// Number of refused connections so far.
     std::uint64_t refused() const { return refused_; }
 
   private:
@@ -62,10 +62,10 @@ class StrangerWatch {
     zmq::socket_t& watched_;
     zmq::socket_t events_;
     bool has_keys_ = false;
-    std::map<int, Connection> open_;   ///< by file descriptor: no more than the process may have
-    std::optional<Kind> failed_;       ///< a handshake did, and its connection is about to end
-    std::uint64_t unheard_hosts_ = 0;  ///< connections of hosts that have not said a word yet
-    std::uint64_t unlisted_ = 0;       ///< those whose key was refused and that have not ended yet
+    std::map<int, Connection> open_;   ///< by file descriptor, so the size is bounded
+    std::optional<Kind> failed_;       ///< a handshake failed, and its connection is about to end
+    std::uint64_t unheard_hosts_ = 0;  ///< connections of hosts without a message yet
+    std::uint64_t unlisted_ = 0;       ///< connections with a refused key that have not ended yet
     std::array<Complaint, static_cast<std::size_t>(Kind::count)> complaints_;
     std::uint64_t refused_ = 0;
 };

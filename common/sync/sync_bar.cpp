@@ -17,7 +17,7 @@ SyncBar::SyncBar(int leds, std::chrono::nanoseconds step) : leds_(leds), step_(s
 }
 
 std::chrono::nanoseconds SyncBar::half_wave(int led) const {
-    // The slowest LED changes as rarely as the one before it: the code is a ring.
+    // The code is cyclic: the slowest LED changes as rarely as the one before it.
     return step_ * (std::int64_t{1} << std::min(led + 1, leds_ - 1));
 }
 

@@ -26,7 +26,7 @@ double measure_disk_mb_s(const std::filesystem::path& folder) {
     const UniqueFd file(mkstemp(name.data()));
     if (!file) fail("cannot write to {}: {}", folder.string(), std::strerror(errno));
     ::unlink(name.c_str());
-    // Disks that compress would be fast with zeros.
+    // Random data, since disks that compress would be fast with zeros.
     std::vector<std::uint32_t> piece(piece_bytes / sizeof(std::uint32_t));
     std::uint32_t noise = 1;
     for (std::uint32_t& word : piece) word = noise = noise * 1664525u + 1013904223u;

@@ -4,11 +4,11 @@
 
 namespace vantage {
 
-/// How many megabytes a second the disk of this folder takes, until they are on it: measured by
-/// writing some, for a third of a second at most. Throws Error if nothing can be written there.
+/// Measures the write rate of a folder's disk in MB/s, including the sync, by writing for at most
+/// 0.3 s. Throws Error if the folder is not writable.
 double measure_disk_mb_s(const std::filesystem::path& folder);
 
-/// Megabytes that are free there.
+/// Free space on the folder's disk in MB.
 double free_disk_mb(const std::filesystem::path& folder);
 
 }  // namespace vantage

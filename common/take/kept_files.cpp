@@ -19,7 +19,7 @@ std::optional<std::time_t> begin_of_kept_file(const std::filesystem::path& path,
                                               const std::string& rig) {
     const std::string name = path.filename().string();
     if (!name.starts_with(rig + "-") || path.extension() != ".mkv") return std::nullopt;
-    // A second one of the same second has "-2" behind it.
+    // A second file of the same second has the suffix "-2".
     std::tm parts{};
     if (!strptime(name.c_str() + rig.size() + 1, "%Y%m%dT%H%M%SZ", &parts)) return std::nullopt;
     return timegm(&parts);

@@ -31,9 +31,9 @@ nlohmann::json to_json(const TakePictures& pictures) {
 
 TakePictures pictures_from(const nlohmann::json& json) {
     const auto number = [&](const nlohmann::json& value, int most) {
-        if (!value.is_number_integer()) fail("its tracks have a number that is none");
+        if (!value.is_number_integer()) fail("its tracks have an invalid number");
         const auto found = value.get<std::int64_t>();
-        if (found < 0 || found > most) fail("its tracks have {} where 0..{} can be", found, most);
+        if (found < 0 || found > most) fail("its tracks have {} where 0..{} is valid", found, most);
         return static_cast<int>(found);
     };
     TakePictures pictures;
@@ -45,7 +45,7 @@ TakePictures pictures_from(const nlohmann::json& json) {
     for (const nlohmann::json& byte : json.at("setup"))
         pictures.setup.push_back(static_cast<std::byte>(number(byte, 255)));
     if ((pictures.codec == TakePictures::Codec::none) != pictures.size_px.empty())
-        fail("a track without pictures has a size, or one with pictures none");
+        fail("a track without images has a size, or one with images has none");
     return pictures;
 }
 
@@ -53,7 +53,7 @@ void check_picture(const char* what, const TakePictures& track, const std::vecto
                    const std::optional<std::uint32_t>& crc) {
     if (crc.has_value() == bytes.empty() ||
         (!bytes.empty() && track.codec == TakePictures::Codec::none))
-        fail("its {} is there and should not be, or the other way round", what);
+        fail("its {} is present although its record says otherwise, or missing", what);
     if (crc && crc32(bytes) != *crc) fail("its {} is damaged", what);
 }
 
@@ -81,12 +81,12 @@ KeptFrame decode_kept_frame(const KeptParts& parts) {
         kept.pulse_rate_hz = json.at("pulse_rate_hz").get<double>();
         constexpr double least_hz = 0.001, most_hz = 1e6;
         if (!(kept.pulse_rate_hz >= least_hz && kept.pulse_rate_hz <= most_hz))
-            fail("it is of {} pulses a second", kept.pulse_rate_hz);
-        if (!json.at("tai_offset_s").is_number_integer()) fail("its clock is at no number");
+            fail("it has {} pulses per second", kept.pulse_rate_hz);
+        if (!json.at("tai_offset_s").is_number_integer()) fail("its TAI offset is not a number");
         const auto offset = json.at("tai_offset_s").get<std::int64_t>();
         constexpr std::int64_t most_offset_s = 86'400;
         if (offset < -most_offset_s || offset > most_offset_s)
-            fail("its clock is {} s from UTC", offset);
+            fail("its TAI offset is {} s", offset);
         kept.tai_offset_s = static_cast<int>(offset);
         kept.rig.colour = pictures_from(json.at("colour"));
         kept.rig.depth = pictures_from(json.at("depth"));

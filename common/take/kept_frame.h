@@ -5,7 +5,7 @@
 
 namespace vantage {
 
-/// A frame of a rig's own take with what another take has to know of it.
+/// A frame of a rig's own recording, with the data that another take needs.
 struct KeptFrame {
     TakeRig rig;
     double pulse_rate_hz = 30;
@@ -13,10 +13,10 @@ struct KeptFrame {
     StoredFrame frame;
 };
 
-/// As it travels: the head is JSON, the rest as in the file.
+/// The transport form: the head is JSON, the rest as in the file.
 KeptParts encode(const KeptFrame& frame);
-/// Takes nothing on trust: throws Error with one sentence for what is damaged, is not what its
-/// record says, or would fit no track. Pictures are not decoded.
+/// Decodes an untrusted frame. Throws Error with one sentence if it is damaged, contradicts its
+/// record, or fits no track. Images are not decoded.
 KeptFrame decode_kept_frame(const KeptParts& parts);
 
 }  // namespace vantage

@@ -16,7 +16,7 @@ void find_gaps(const TakeReader& take, std::size_t rig, std::uint64_t first, std
     const std::vector<TakeReader::Frame>& frames = take.frames(rig);
     const auto ragged = static_cast<std::uint64_t>(std::ceil(take.facts().pulse_rate_hz));
     if (frames.empty()) {
-        gaps.push_back({name, first, last, "the rig is in none of the take"});
+        gaps.push_back({name, first, last, "the rig has no frame in the take"});
         return;
     }
     if (frames.front().pulse - first > ragged)
@@ -29,8 +29,7 @@ void find_gaps(const TakeReader& take, std::size_t rig, std::uint64_t first, std
 void look_at_sound(const TakeReader& take, const PulseSpan& span, TakeVerdict& verdict) {
     if (!take.facts().has_sound) return;
     const PulseGrid pulses(take.facts().pulse_rate_hz);
-    // A programme has no sound before its first picture. What begins or ends within a second has no
-    // gap there.
+    // A programme has no sound before its first picture. A begin or end within a second is no gap.
     TaiTime begin = pulses.time_of(span.first);
     if (!take.cameras().empty()) begin = std::max(begin, take.cameras().front().time);
     std::int64_t end = sound_sample_at(begin) + sound_rate_hz;

@@ -10,10 +10,10 @@
 namespace vantage {
 namespace {
 
-/// A frame of one of the takes.
+/// A frame of one of the source takes.
 struct Source {
     std::uint64_t pulse = 0;
-    std::size_t rig = 0;  ///< of the copy
+    std::size_t rig = 0;  ///< index in the copy
     std::size_t take = 0, rig_there = 0, frame = 0;
 };
 
@@ -26,7 +26,7 @@ std::vector<TakeRig> rigs_of(const std::vector<const TakeReader*>& takes) {
     std::vector<TakeRig> rigs;
     for (const TakeReader* take : takes) {
         if (take->facts().pulse_rate_hz != takes.front()->facts().pulse_rate_hz)
-            fail("{} is of {} pulses a second and {} of {}: they are of different stages",
+            fail("{} has {} pulses per second and {} has {}: they are of different stages",
                  takes.front()->path().string(), takes.front()->facts().pulse_rate_hz,
                  take->path().string(), take->facts().pulse_rate_hz);
         for (std::size_t i = 0; i < take->facts().rigs.size(); ++i) {
@@ -38,8 +38,8 @@ std::vector<TakeRig> rigs_of(const std::vector<const TakeReader*>& takes) {
                 rigs.push_back(rig);
             else if (*known != rig && !take->frames(i).empty())
                 fail(
-                    "rig {} of {} sent pictures of another size or coding than in the take "
-                    "before it: such takes stay apart",
+                    "rig {} of {} has images of another size or codec than in the take before "
+                    "it: such takes cannot be joined",
                     rig.name, take->path().string());
         }
     }
@@ -81,7 +81,7 @@ std::vector<CameraRecord> cameras_of(const std::vector<const TakeReader*>& takes
     return cameras;
 }
 
-/// Sound of one of the takes.
+/// Sound of one of the source takes.
 struct SoundSourceOf {
     const TakeReader* take;
     const TakeReader::Sound* sound;
@@ -98,14 +98,14 @@ std::vector<SoundSourceOf> sounds_of(const std::vector<const TakeReader*>& takes
     return sounds;
 }
 
-/// Writes sound in its time, from the take's origin to its end.
+/// Copies sound in the order of its time, from the take's origin to its end.
 class SoundCopy {
   public:
     SoundCopy(const std::vector<const TakeReader*>& takes, TaiTime end, TakeWriter& writer,
               TakeCopy& copy)
         : sounds_(sounds_of(takes)), end_(sound_sample_at(end)), writer_(writer), copy_(copy) {}
 
-    /// What begins by then.
+    /// Writes the sound that begins by `time`.
     void write_until(TaiTime time) {
         if (!writer_.facts().has_sound) return;
         const std::int64_t until = std::min(sound_sample_at(time), end_);
@@ -178,12 +178,12 @@ TakeCopy copy_takes(const std::vector<const TakeReader*>& takes, std::uint64_t f
     facts.has_sound = std::any_of(takes.begin(), takes.end(),
                                   [](const TakeReader* take) { return take->facts().has_sound; });
     const std::vector<Source> sources = sources_of(takes, facts.rigs, from, to);
-    if (sources.empty()) fail("{} is not written: no frame is in that part", path.string());
+    if (sources.empty()) fail("{} is not written: the range has no frames", path.string());
     const Source& first = sources.front();
     const TakeReader::Frame& frame = takes[first.take]->frames(first.rig_there)[first.frame];
     facts.origin = takes[first.take]->facts().origin + std::chrono::milliseconds(frame.time_ms);
     const PulseGrid pulses(facts.pulse_rate_hz);
-    // Milliseconds are what the file counts; a pulse is where the grid says.
+    // The file's times are in milliseconds; the grid has the exact time of a pulse.
     if (const TaiTime exact = pulses.time_of(first.pulse);
         std::chrono::abs(exact - facts.origin) <= std::chrono::milliseconds(1))
         facts.origin = exact;

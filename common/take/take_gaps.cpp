@@ -8,12 +8,12 @@
 namespace vantage {
 namespace {
 
-constexpr std::array reasons{"missed by the rig", "late at the rig", "pushed out on the way",
-                             "not asked for", "left out by the recording host"};
+constexpr std::array reasons{"missed by the rig", "late at the rig", "dropped at the rig",
+                             "skipped (not requested)", "dropped by the recording host"};
 using Losses = std::array<std::uint64_t, reasons.size()>;
 
-/// Losses that are known ahead of their gap, and frames for which a gap waits to be explained: more
-/// than are on their way at once. A rig whose take was joined counts otherwise, and beyond that.
+/// How many losses may be known before their gap, and how many frames after a gap may explain it:
+/// more than are on their way at a time. Joined takes exceed this.
 constexpr std::uint64_t most_ahead = 32;
 constexpr std::size_t most_frames_later = 8;
 
@@ -24,7 +24,7 @@ Losses losses_of(const TakeReader::Frame& frame) {
 
 struct Gap {
     TakeGap gap;
-    std::size_t frame;  ///< that it is before
+    std::size_t frame;  ///< index of the frame after the gap
     std::uint64_t unexplained;
     Losses losses{};
 };
@@ -52,7 +52,7 @@ std::string words_for(const Losses& losses) {
 std::vector<TakeGap> gaps_between(const std::string& rig,
                                   std::span<const TakeReader::Frame> frames) {
     std::vector<Gap> gaps;
-    std::size_t first_open = 0;  // of `gaps`: those before are as explained as they will be
+    std::size_t first_open = 0;  // in `gaps`: earlier ones are explained as far as possible
     Losses known{};
     for (std::size_t i = 1; i < frames.size(); ++i) {
         const TakeReader::Frame &before = frames[i - 1], &after = frames[i];
@@ -70,7 +70,7 @@ std::vector<TakeGap> gaps_between(const std::string& rig,
         if (after.pulse > before.pulse + 1) {
             gaps.push_back({{rig, before.pulse + 1, after.pulse - 1, ""}, i, 0});
             if (is_anew) {
-                gaps.back().gap.why = "the rig was started anew";
+                gaps.back().gap.why = "the rig was restarted";
                 first_open = gaps.size();
             } else {
                 gaps.back().unexplained = gaps.back().gap.pulses();

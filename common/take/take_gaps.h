@@ -8,18 +8,18 @@
 
 namespace vantage {
 
-/// Pulses that a rig is not in.
+/// A range of pulses without a frame of a rig.
 struct TakeGap {
     std::string rig;
-    std::uint64_t from = 0, to = 0;  ///< the first and the last of them
-    std::string why;                 ///< as the counters of the frames around it say; may be empty
+    std::uint64_t from = 0, to = 0;  ///< first and last pulse
+    std::string why;                 ///< by the counters of the frames around it; may be empty
     std::uint64_t pulses() const { return to - from + 1; }
 };
 
-/// Between a rig's frames, which are in the order of their pulses. Counters tell how many pulses
-/// were lost and why, though not which: a rig counts while earlier frames are still on their way to
-/// be packed, and a link drops frames that were packed before others. So what is counted is dealt
-/// out, every loss once, to the gaps around.
+/// The gaps between a rig's frames, which are in the order of their pulses. Counters tell how many
+/// pulses were lost and why, but not which: a rig counts losses while earlier frames are still
+/// being packed, and a link drops packed frames out of order. So each counted loss is assigned once
+/// to a gap nearby.
 std::vector<TakeGap> gaps_between(const std::string& rig,
                                   std::span<const TakeReader::Frame> frames);
 

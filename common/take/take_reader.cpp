@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-/// Identifiers of Matroska's elements (RFC 9559).
+/// Matroska's element identifiers (RFC 9559).
 namespace id {
 constexpr std::uint64_t ebml = 0x1A45DFA3, segment = 0x18538067, cluster = 0x1F43B675,
                         tracks = 0x1654AE6B, track_entry = 0xAE, track_number = 0xD7, name = 0x536E,
@@ -20,17 +20,17 @@ constexpr std::uint64_t ebml = 0x1A45DFA3, segment = 0x18538067, cluster = 0x1F4
                         cues = 0x1C53BB6B;
 }  // namespace id
 
-/// What is larger is no attachment of Vantage's.
+/// The largest attachment that Vantage writes.
 constexpr std::uint64_t most_attached_bytes = 16 << 20;
 constexpr std::size_t most_rigs = 64;
-/// Places that are named; a file that is no take at all has millions.
+/// The number of damaged places that are listed; a file that is not a take has millions.
 constexpr std::size_t most_damage = 1000;
 
 std::string text_of(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-/// Takes the Windows header, in which libavformat puts FFV1, off `setup`.
+/// Removes the Windows header, in which libavformat stores FFV1's, from `setup`.
 TakePictures::Codec codec_of(const std::string& track, const std::string& codec,
                              std::vector<std::byte>& setup) {
     constexpr std::size_t header_bytes = 40, fourcc_at = 16;
@@ -41,13 +41,13 @@ TakePictures::Codec codec_of(const std::string& track, const std::string& codec,
         setup.erase(setup.begin(), setup.begin() + header_bytes);
         return TakePictures::Codec::ffv1;
     }
-    fail("its track {} is coded as {}, which is neither JPEG nor FFV1", track, codec);
+    fail("its track {} has the codec {}, which is neither JPEG nor FFV1", track, codec);
 }
 
 int side(std::optional<std::uint64_t> number) {
     constexpr std::uint64_t longest_px = 4096;
     if (!number || *number < 1 || *number > longest_px)
-        fail("a track's picture has a side that is not 1 to {} pixels", longest_px);
+        fail("a side of a track's image is not 1 to {} pixels", longest_px);
     return static_cast<int>(*number);
 }
 
@@ -63,7 +63,7 @@ TakeReader::TakeReader(std::filesystem::path path) : path_(std::move(path)), fil
     try {
         read_head();
     } catch (const Error& error) {
-        fail("{} is no take that can be read: {}", path_.string(), error.what());
+        fail("{} cannot be read as a take: {}", path_.string(), error.what());
     }
     sort_frames();
     sort_sounds();
@@ -75,14 +75,14 @@ void TakeReader::add_damage(std::uint64_t at, std::string words) {
 
 void TakeReader::read_head() {
     const auto ebml = file_.element(0, file_.size());
-    if (!ebml || ebml->id != id::ebml) fail("it is no Matroska file");
+    if (!ebml || ebml->id != id::ebml) fail("it is not a Matroska file");
     const auto segment = file_.element(ebml->end, file_.size());
-    // One that was cut off after its end was written is shorter than its head says.
+    // A file that was truncated after it was finished is shorter than its head states.
     const std::uint64_t begin = segment ? segment->inside : ebml->end + 12;
-    if (segment && segment->id != id::segment) fail("it is no Matroska file");
+    if (segment && segment->id != id::segment) fail("it is not a Matroska file");
     segment_begin_ = begin;
     segment_end_ = segment ? segment->end : file_.size();
-    if (!segment) add_damage(file_.size(), "the file is cut off: it is shorter than its head says");
+    if (!segment) add_damage(file_.size(), "the file is truncated: its head states more bytes");
 
     std::vector<HeadTrack> found;
     bool has_facts = false;
@@ -99,7 +99,7 @@ void TakeReader::read_head() {
         at = element->end;
     }
     if (!has_facts || facts_.program.empty())
-        fail("it is Matroska, and has no take.json with what a take has to say");
+        fail("it is a Matroska file without take.json, so it is not a take");
     name_tracks(found);
     read_clusters(at);
 }
@@ -173,7 +173,7 @@ void TakeReader::name_tracks(const std::vector<HeadTrack>& found) {
         if (track.name == "camera") tracks_[track.number] = {Track::Kind::camera, 0};
         if (facts_.has_sound && track.name == "sound") {
             if (track.codec != "A_PCM/INT/LIT")
-                fail("its sound is coded as {}, which is not as it was heard", track.codec);
+                fail("its sound has the codec {}, which takes do not use", track.codec);
             tracks_[track.number] = {Track::Kind::sound, 0};
         }
         if (facts_.has_sound && track.name == "sound times")
@@ -200,7 +200,7 @@ void TakeReader::read_clusters(std::uint64_t at) {
             at = element->end;
             continue;
         }
-        // An end without the mark of a cluster is one that was cut off between two of them.
+        // An end without a cluster's identifier is a truncation between two clusters.
         if (element && !element->is_open) {
             is_ended_ = is_ended_ || element->id == id::cues;
             at = element->end;
@@ -208,8 +208,9 @@ void TakeReader::read_clusters(std::uint64_t at) {
         }
         const auto next = file_.find(static_cast<std::uint32_t>(id::cluster), at + 1);
         const std::uint64_t until = std::min(next.value_or(segment_end_), segment_end_);
-        add_damage(at, next ? fmt::format("{} bytes are no part of a take", until - at)
-                            : fmt::format("the last {} bytes are cut off or damaged", until - at));
+        add_damage(at, next
+                           ? fmt::format("{} bytes are not part of a take", until - at)
+                           : fmt::format("the last {} bytes are truncated or damaged", until - at));
         at = until;
     }
 }
@@ -255,8 +256,8 @@ void TakeReader::take_block(std::uint64_t at, std::uint64_t end, std::int64_t cl
     }
     const auto found = tracks_.find(number->value);
     if (found == tracks_.end()) {
-        add_damage(at,
-                   fmt::format("a block is of track {}, which the take has not", number->value));
+        add_damage(at, fmt::format("a block belongs to track {}, which the take does not have",
+                                   number->value));
         return;
     }
     const auto byte = [&](std::size_t i) {
@@ -277,13 +278,13 @@ void TakeReader::take_block(std::uint64_t at, std::uint64_t end, std::int64_t cl
             return;
         case Track::Kind::colour:
         case Track::Kind::depth: {
-            // Its record came right before it.
+            // Its record precedes it.
             std::vector<Frame>& frames = frames_[track.rig];
             Block Frame::*const place =
                 track.kind == Track::Kind::colour ? &Frame::colour : &Frame::depth;
             if (frames.empty() || frames.back().time_ms != time_ms ||
                 (frames.back().*place).size != 0)
-                add_damage(at, fmt::format("a picture of rig {} is without a record",
+                add_damage(at, fmt::format("an image of rig {} has no record",
                                            facts_.rigs[track.rig].name));
             else
                 frames.back().*place = block;
@@ -314,7 +315,7 @@ void TakeReader::take_record(std::size_t rig, std::int64_t time_ms, const Block&
         if (block.size > most_text_bytes) fail("a frame's record is too long");
         const FrameRecord record = frame_record_from(text_of(file_.bytes(block.at, block.size)));
         if (time_ms != facts_.time_ms_of(record))
-            fail("the frame of pulse {} stands at another time than its record says", record.pulse);
+            fail("the frame of pulse {} is at another time than its record states", record.pulse);
         frames_[rig].push_back({record.pulse,
                                 record.gap,
                                 record.dropped,
@@ -338,7 +339,7 @@ void TakeReader::take_sound_record(std::int64_t time_ms, const Block& block) {
         if (block.size > most_text_bytes) fail("a sound's record is too long");
         const SoundRecord record = sound_record_from(text_of(file_.bytes(block.at, block.size)));
         if (time_ms != facts_.time_ms_of(time_of_sound(record.first)))
-            fail("sound stands at another time than its record says");
+            fail("sound is at another time than its record states");
         sounds_.push_back({record.first, record.count, block, {}, record.crc});
     } catch (const Error& error) {
         add_damage(block.at, error.what());
@@ -346,18 +347,19 @@ void TakeReader::take_sound_record(std::int64_t time_ms, const Block& block) {
 }
 
 void TakeReader::take_sound(std::uint64_t at, std::int64_t time_ms, const Block& block) {
-    // Its record came right before it.
+    // Its record precedes it.
     if (sounds_.empty() || sounds_.back().samples.size != 0 ||
         facts_.time_ms_of(time_of_sound(sounds_.back().first)) != time_ms ||
         block.size != sounds_.back().count * stored_sound_bytes)
-        add_damage(at, "sound is without a record");
+        add_damage(at, "sound has no record");
     else
         sounds_.back().samples = block;
 }
 
 void TakeReader::sort_sounds() {
     std::erase_if(sounds_, [&](const Sound& sound) {
-        if (sound.samples.size == 0) add_damage(sound.record.at, "sound of a record is not there");
+        if (sound.samples.size == 0)
+            add_damage(sound.record.at, "the sound of a record is missing");
         return sound.samples.size == 0;
     });
     std::stable_sort(sounds_.begin(), sounds_.end(),
@@ -365,7 +367,7 @@ void TakeReader::sort_sounds() {
     std::int64_t end = 0;
     std::erase_if(sounds_, [&](const Sound& sound) {
         const bool is_twice = sound.first < end;
-        if (is_twice) add_damage(sound.record.at, "sound is there twice");
+        if (is_twice) add_damage(sound.record.at, "sound occurs twice");
         end = std::max(end, sound.end());
         return is_twice;
     });
@@ -383,9 +385,9 @@ void TakeReader::sort_frames() {
             if (!is_whole)
                 add_damage(frame.record.at,
                            !is_ended_ && is_last
-                               ? fmt::format("pictures of pulse {} of rig {} are cut off",
+                               ? fmt::format("images of pulse {} of rig {} are truncated",
                                              frame.pulse, facts_.rigs[rig].name)
-                               : fmt::format("rig {} lacks pictures of pulse {}",
+                               : fmt::format("rig {} lacks images of pulse {}",
                                              facts_.rigs[rig].name, frame.pulse));
             return !is_whole;
         });

@@ -14,29 +14,28 @@
 
 namespace vantage {
 
-/// Bytes of a take are not those that were written.
+/// Data of a take differs from what was written.
 class TakeDamaged : public Error {
   public:
     using Error::Error;
 };
 
-/// A place in a take that is not what was written there.
+/// A damaged place in a take.
 struct TakeDamage {
-    std::uint64_t at = 0;  ///< offset in the file, in bytes
+    std::uint64_t at = 0;  ///< offset in the file in bytes
     std::string words;
 };
 
-/// Reads a take: also one that was cut off, and around places that are damaged. Opening reads the
-/// heads of its blocks and the records of its frames, none of its pictures. After that every call
-/// may come from any thread.
+/// Reads a take, also one that is truncated or damaged in places. Opening reads the heads of its
+/// blocks and the records of its frames, but no images. Afterwards every call is thread-safe.
 class TakeReader {
   public:
-    /// Throws Error if it is no take, or its head is damaged.
+    /// Throws Error if it is not a take, or its head is damaged.
     explicit TakeReader(std::filesystem::path path);
 
     struct Block {
         std::uint64_t at = 0;
-        std::uint32_t size = 0;  ///< 0: there is none
+        std::uint32_t size = 0;  ///< 0: none
     };
     struct Frame {
         std::uint64_t pulse = 0, gap = 0, dropped = 0, session = 0;
@@ -49,8 +48,8 @@ class TakeReader {
     };
 
     struct Sound {
-        std::int64_t first = 0;   ///< sample
-        std::uint32_t count = 0;  ///< samples
+        std::int64_t first = 0;   ///< number of the first sample
+        std::uint32_t count = 0;  ///< number of samples
         Block record, samples;
         std::uint32_t crc = 0;
         std::int64_t end() const { return first + count; }
@@ -59,22 +58,22 @@ class TakeReader {
     const std::filesystem::path& path() const { return path_; }
     const TakeFacts& facts() const { return facts_; }
     std::uint64_t bytes() const { return file_.size(); }
-    /// Of facts().rigs[rig], in the order of their pulses.
+    /// The frames of facts().rigs[rig], in the order of their pulses.
     const std::vector<Frame>& frames(std::size_t rig) const { return frames_[rig]; }
-    /// The camera of every tick, in their order.
+    /// The camera of every tick, in order.
     const std::vector<CameraRecord>& cameras() const { return cameras_; }
-    /// In the order in which it was heard; of no sample twice.
+    /// The sound in order of time; no sample occurs twice.
     const std::vector<Sound>& sounds() const { return sounds_; }
-    /// What opening found.
+    /// The damage that opening found.
     const std::vector<TakeDamage>& damage() const { return damage_; }
-    /// False: whoever wrote it was ended before it was.
+    /// Whether the writer finished the file.
     bool is_ended() const { return is_ended_; }
     /// From the first to the last frame.
     double duration_s() const;
 
-    /// The frame with all its bytes. Throws TakeDamaged if they are not those that were written.
+    /// Loads a frame with all its data. Throws TakeDamaged if a checksum does not match.
     StoredFrame load(std::size_t rig, const Frame& frame) const;
-    /// A piece of sound as the file has it. Throws likewise.
+    /// Loads a block of sound in its stored form. Throws TakeDamaged, too.
     std::vector<std::byte> load(const Sound& sound) const;
 
   private:
@@ -108,7 +107,7 @@ class TakeReader {
     std::filesystem::path path_;
     EbmlFile file_;
     TakeFacts facts_;
-    std::map<std::uint64_t, Track> tracks_;  ///< by Matroska's number
+    std::map<std::uint64_t, Track> tracks_;  ///< by Matroska's track number
     std::vector<std::vector<Frame>> frames_;
     std::vector<CameraRecord> cameras_;
     std::vector<Sound> sounds_;

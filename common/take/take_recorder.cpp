@@ -14,20 +14,20 @@
 namespace vantage {
 namespace {
 
-/// A disk has to be so much faster than what is to be written: it does other things too.
+/// The disk has to be faster than the data rate by this factor, as it has other work, too.
 constexpr double disk_margin = 1.5;
-/// And has room for so much of it.
+/// Free space that a take needs at its start, in seconds of data.
 constexpr double least_room_s = 10;
-/// How long the thread waits for something to do before it looks whether the disk is to follow.
+/// How long the thread waits for work before it checks whether data is due on disk.
 constexpr std::chrono::milliseconds patience{100};
-/// That are coded at one go. A thread that the system lets run seldom has to do much whenever it
-/// runs: one frame a go, and what waits would grow without end.
+/// Frames per rig that are encoded in one go. On a busy computer the thread runs rarely and has to
+/// do much at a time, or its queue would grow without bound.
 constexpr std::size_t most_frames_a_rig = 16;
-/// What is in memory only for longer than that is worth a word.
+/// Data that is in memory only for longer than this is logged.
 constexpr std::chrono::seconds long_unwritten{1};
-/// A block of sound in the file.
+/// Samples per block of sound in the file.
 constexpr std::int64_t sound_block = sound_rate_hz / 10;
-/// Before the first frame came: what may have been heard since that was exposed.
+/// Sound kept until the first frame comes: it may have been heard since that frame's exposure.
 constexpr std::int64_t sound_before = 3 * sound_rate_hz;
 constexpr double sound_mb_s = 1e-6 * sound_rate_hz * stored_sound_bytes;
 
@@ -50,21 +50,21 @@ nlohmann::ordered_json calibration_json(const RigFrame& frame) {
 struct TakeRecorder::Take {
     std::filesystem::path path;
     std::optional<TakeWriter> writer;
-    nlohmann::ordered_json calibrations;       ///< of the rigs' first frames, for people
-    std::vector<std::optional<TakeRig>> rigs;  ///< as the first frame of each says
+    nlohmann::ordered_json calibrations;       ///< from the rigs' first frames, for people
+    std::vector<std::optional<TakeRig>> rigs;  ///< from the first frame of each
     std::vector<std::unique_ptr<FrameStorer>> storers;
-    std::vector<Item> held;  ///< until the writer is there
+    std::vector<Item> held;  ///< until there is a writer
     std::deque<SoundBlock> held_sound;
-    SoundBlock sound;  ///< that waits to be a block
+    SoundBlock sound;  ///< incomplete block
     std::optional<MonotonicTime> first_arrival;
     std::optional<TaiTime> origin;
     int tai_offset_s = 0;
-    double bytes_a_pulse = 0;  ///< of the rigs' first frames
+    double bytes_a_pulse = 0;  ///< from the rigs' first frames
     MonotonicTime asked = MonotonicClock::now();
     std::chrono::nanoseconds longest_unwritten{0};
     bool is_lateness_told = false;
     double disk_mb_s = 0;
-    std::vector<std::string> told;  ///< of each rig: why one was refused last
+    std::vector<std::string> told;  ///< per rig: the reason of the last refusal
     std::string failure;            ///< empty: none
 };
 
@@ -107,7 +107,7 @@ void TakeRecorder::offer_with_pre_roll(Item item) {
         const std::lock_guard lock(mutex_);
         const MonotonicTime arrival = item.arrival;
         const std::size_t bytes = item.bytes();
-        // What comes after the end of one take belongs to the next.
+        // What comes after the end of a take belongs to the next.
         if (!is_taking_ || is_ending_) {
             if (settings_.pre_roll.count() == 0) return;
             pre_roll_.push_back(std::move(item));
@@ -136,7 +136,7 @@ void TakeRecorder::push(Item item) {
     }
 }
 
-/// What stands first, so many frames a rig at most. Precondition: mutex_ is held.
+/// The oldest items, with at most a bounded number of frames per rig. Precondition: mutex_ is held.
 std::vector<TakeRecorder::Item> TakeRecorder::pop_some() {
     std::vector<Item> items;
     std::vector<std::size_t> frames(settings_.rigs.size());
@@ -155,7 +155,7 @@ void TakeRecorder::begin(const std::filesystem::path& path) {
     {
         const std::lock_guard lock(mutex_);
         if (is_ending_)
-            fail("{} cannot be begun yet: {} is still being written", path.string(), state_.path);
+            fail("cannot begin {} yet: {} is still being written", path.string(), state_.path);
         if (is_taking_) return;
         is_taking_ = true;
         is_ending_ = false;
@@ -244,7 +244,7 @@ void TakeRecorder::run() {
         const std::string failure = std::move(take->failure);
         take.reset();
         {
-            // All at once: who sees the phase may begin the next one.
+            // In one step, since a caller that sees the phase may begin the next take.
             const std::lock_guard lock(mutex_);
             state_.phase = failure.empty() ? TakePhase::none : TakePhase::failed;
             state_.failure = failure;
@@ -267,7 +267,7 @@ void TakeRecorder::work(Take& take, std::vector<Item> items) {
                take.held_sound.back().end() - take.held_sound.front().first > sound_before)
             take.held_sound.pop_front();
         if (!item.frame) {
-            // Before the first frame there is no time of the take's own.
+            // Before the first frame the take has no origin.
             if (!item.sound && take.first_arrival) take.held.push_back(std::move(item));
             continue;
         }
@@ -280,14 +280,14 @@ void TakeRecorder::work(Take& take, std::vector<Item> items) {
     }
 }
 
-/// What a take has to know before it can be begun.
+/// Collects the data that a take needs before its file can be created.
 void TakeRecorder::look_at_first(Take& take, const Item& item) {
     const ArrivedFrame& frame = *item.frame;
     const FrameHead head = decode_frame_head(frame.packed->header);
     if (!take.rigs[frame.rig]) {
         take.rigs[frame.rig] = take_rig_of(head);
         take.calibrations[settings_.rigs[frame.rig]] = calibration_json(head.frame);
-        // Disparity takes about as much here as it did on the way.
+        // Disparity takes about as much space here as on the wire.
         take.bytes_a_pulse += static_cast<double>(item.bytes());
     }
     const TaiTime time = head.frame.synchronized
@@ -315,14 +315,14 @@ void TakeRecorder::open(Take& take) {
     take.disk_mb_s = settings_.disk_mb_s(folder);
     if (take.disk_mb_s < disk_margin * needed_mb_s)
         fail(
-            "{} cannot be recorded: the disk of {} takes {:.1f} MB a second, and these rigs' "
-            "frames need {:.1f}; record to a faster disk or ask for fewer pictures",
+            "cannot record {}: the disk of {} writes {:.1f} MB/s, and these rigs' frames need "
+            "{:.1f}; record to a faster disk or ask for fewer frames",
             take.path.string(), folder.string(), take.disk_mb_s, disk_margin * needed_mb_s);
     const double free_mb = free_disk_mb(folder);
     if (free_mb < least_room_s * needed_mb_s)
         fail(
-            "{} cannot be recorded: the disk of {} has {:.0f} MB left, which is {:.1f} s of these "
-            "rigs' frames; make room",
+            "cannot record {}: the disk of {} has {:.0f} MB left, which is {:.1f} s of these "
+            "rigs' frames; free some space",
             take.path.string(), folder.string(), free_mb, free_mb / needed_mb_s);
     TakeFacts facts;
     facts.pulse_rate_hz = settings_.pulse_rate_hz;
@@ -334,7 +334,7 @@ void TakeRecorder::open(Take& take) {
     facts.show["calibrations"] = take.calibrations;
     facts.attachments = settings_.attachments;
     facts.has_sound = settings_.has_sound;
-    // A rig that comes later is taken to send what the first one does.
+    // A rig that comes later is assumed to send the same as the first one.
     const auto present = std::find_if(take.rigs.begin(), take.rigs.end(),
                                       [](const auto& rig) { return rig.has_value(); });
     for (std::size_t i = 0; i < take.rigs.size(); ++i) {
@@ -344,7 +344,7 @@ void TakeRecorder::open(Take& take) {
     take.writer.emplace(take.path, facts);
     for (std::size_t i = 0; i < facts.rigs.size(); ++i)
         take.storers[i] = std::make_unique<FrameStorer>(facts.rigs[i]);
-    log_info("recording {}: {:.1f} MB a second, of {:.0f} that its disk takes", take.path.string(),
+    log_info("recording {}: {:.1f} MB/s, and the disk can write {:.0f}", take.path.string(),
              needed_mb_s, take.disk_mb_s);
     for (const SoundBlock& sound : std::exchange(take.held_sound, {})) hear(take, sound);
     const std::vector<Item> held = std::exchange(take.held, {});
@@ -352,8 +352,8 @@ void TakeRecorder::open(Take& take) {
         store(take, std::span(held).subspan(i, std::min(most_frames_a_rig, held.size() - i)));
 }
 
-/// Codes frames a rig a thread, and writes them in the order in which they came. Before it waits
-/// for one the system gets those before it: what is lost with the process is what is not coded yet.
+/// Encodes frames with one thread per rig, and writes them in the order of arrival. Hands over
+/// earlier frames before waiting for one, so that a killed process loses only unencoded frames.
 void TakeRecorder::store(Take& take, std::span<const Item> items) {
     std::vector<std::promise<StoredFrame>> coded(items.size());
     std::vector<std::future<StoredFrame>> coming;
@@ -415,17 +415,17 @@ void TakeRecorder::write(Take& take, const ArrivedFrame& frame, StoredFrame stor
         stored.record.dropped = rig.dropped + rig.refused;
     }
     if (!take.writer->add(frame.rig, std::move(stored))) {
-        refuse(take, frame, "its pulse is not after the one before it");
+        refuse(take, frame, "its pulse is not later than that of the frame before it");
         return;
     }
-    // What was there before the take was asked for was to be kept from then on only.
+    // The pre-roll was in memory on purpose until the take was requested.
     const std::chrono::nanoseconds unwritten =
         MonotonicClock::now() - std::max(frame.arrival, take.asked);
     take.longest_unwritten = std::max(take.longest_unwritten, unwritten);
     if (unwritten > long_unwritten && !std::exchange(take.is_lateness_told, true))
         log_warning(
-            "{}: what comes is written {:.1f} s late, and would be lost if this program were "
-            "killed: its computer has too much to do",
+            "{}: data is written {:.1f} s late and would be lost if this program were killed: the "
+            "computer is overloaded",
             take.path.string(), std::chrono::duration<double>(unwritten).count());
     const std::lock_guard lock(mutex_);
     ++state_.rigs[frame.rig].frames;
@@ -433,7 +433,8 @@ void TakeRecorder::write(Take& take, const ArrivedFrame& frame, StoredFrame stor
 
 void TakeRecorder::refuse(Take& take, const ArrivedFrame& frame, const std::string& why) {
     if (std::exchange(take.told[frame.rig], why) != why)
-        log_warning("a frame of rig {} is not in the take: {}", settings_.rigs[frame.rig], why);
+        log_warning("a frame of rig {} is missing from the take: {}", settings_.rigs[frame.rig],
+                    why);
     const std::lock_guard lock(mutex_);
     ++state_.rigs[frame.rig].refused;
 }

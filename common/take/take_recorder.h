@@ -19,80 +19,81 @@
 
 namespace vantage {
 
+/// The phase of the recording.
 enum class TakePhase {
-    none,     ///< nothing is recorded
+    none,     ///< no take yet
     opening,  ///< waits for the rigs' first frames and measures the disk
     recording,
-    failed  ///< `failure` says why
+    failed  ///< `failure` has the reason
 };
 
-/// How the recording stands, for the desk and the summary.
+/// The state of the recording, for the desk and the summary.
 struct TakeState {
     TakePhase phase = TakePhase::none;
-    std::string path;     ///< of the take that runs or was the last; empty: there was none
+    std::string path;     ///< of the current or last take; empty: none
     std::string failure;  ///< one sentence; empty: none
     std::uint64_t frames = 0, gaps = 0, bytes = 0;
     double duration_s = 0;
-    double mb_s = 0;       ///< that are written
-    double disk_mb_s = 0;  ///< that the disk takes
-    /// The most that a frame was in memory only: what a killed program would have lost at worst.
+    double mb_s = 0;       ///< data rate of the take
+    double disk_mb_s = 0;  ///< write rate of the disk
+    /// The longest time that a frame was in memory only: the most that a killed program would lose.
     double longest_unwritten_ms = 0;
     struct Rig {
         std::string name;
         std::uint64_t frames = 0;
-        std::uint64_t dropped = 0;  ///< came while the disk or the processor could not follow
-        std::uint64_t refused = 0;  ///< fit no track, or came out of order, or were damaged
+        std::uint64_t dropped = 0;  ///< came while the disk or the processor was too slow
+        std::uint64_t refused = 0;  ///< damaged, out of order, or not fitting the tracks
     };
     std::vector<Rig> rigs;
     bool has_sound = false;
-    double sound_s = 0;               ///< that is in it
-    std::uint64_t sound_dropped = 0;  ///< samples that came while the disk could not follow
-    std::uint64_t takes = 0;          ///< that were begun
+    double sound_s = 0;               ///< sound in the take
+    std::uint64_t sound_dropped = 0;  ///< samples that came while the disk was too slow
+    std::uint64_t takes = 0;          ///< number of takes begun
 };
 
-/// Records what the rigs send, whatever the programme does, on a thread of its own. What comes
-/// faster than it can be written is dropped, the oldest first, counted, and a gap in the take.
-/// Thread-safe.
+/// Records the rigs' frames on a thread of its own, independently of the programme. If data comes
+/// faster than it can be written, the oldest frames are dropped and counted, and the take has a
+/// gap. Thread-safe.
 class TakeRecorder {
   public:
     struct Settings {
-        std::vector<std::string> rigs;  ///< of the stage, in its order
+        std::vector<std::string> rigs;  ///< in the order of stage.toml
         double pulse_rate_hz = 30;
         std::string program;
-        nlohmann::ordered_json show;  ///< TakeFacts::show
+        nlohmann::ordered_json show;  ///< for TakeFacts::show
         std::vector<TakeAttachment> attachments = {};
         bool has_sound = false;
-        std::chrono::nanoseconds pre_roll{0};   ///< that a take begins before it is asked for
-        std::size_t queue_bytes = 256'000'000;  ///< that may wait to be written
-        /// For rigs that have not sent yet. Until then nothing is written.
+        std::chrono::nanoseconds pre_roll{0};   ///< time before the request that a take includes
+        std::size_t queue_bytes = 256'000'000;  ///< data that may wait to be written
+        /// How long the start of the file waits for rigs that have not sent yet.
         std::chrono::milliseconds rig_wait{500};
-        bool may_be_empty = false;  ///< a take that no frame came for is no failure
+        bool may_be_empty = false;  ///< whether a take without frames is no failure
         std::function<double(const std::filesystem::path&)> disk_mb_s = measure_disk_mb_s;
     };
     explicit TakeRecorder(Settings settings);
-    /// Ends the take that runs.
+    /// Ends the current take.
     ~TakeRecorder();
     TakeRecorder(const TakeRecorder&) = delete;
     TakeRecorder& operator=(const TakeRecorder&) = delete;
 
-    /// Never wait.
+    /// Never blocks.
     void offer(const ArrivedFrame& frame);
     void offer(const CameraRecord& camera, MonotonicTime now = MonotonicClock::now());
-    /// What was heard, in its order. Precondition: Settings::has_sound.
+    /// Adds sound in the order in which it was heard. Precondition: Settings::has_sound.
     void offer(const SoundBlock& sound);
 
-    /// Begins a take, `pre_roll` ago; one that runs goes on. Throws Error if there is such a file,
-    /// or no folder for it, or while one that was ended is still being written. Whether the disk is
-    /// fast enough shows in the state.
+    /// Begins a take, `pre_roll` ago; a current take continues. Throws Error if the file exists,
+    /// its folder does not, or an ended take is still being written. Whether the disk is fast
+    /// enough shows in the state.
     void begin(const std::filesystem::path& path);
-    /// Ends the one that runs: what came until now is written, on the recorder's thread.
+    /// Ends the current take: what came so far is written, on the recorder's thread.
     void end();
-    /// Ends it and waits until it is written.
+    /// Ends the current take and waits until it is written.
     void finish();
     bool is_running() const;
 
     TakeState state() const;
-    /// What the frames that may become a pre-roll take now, and of how much time they are.
+    /// The current size and duration of the frames kept for a pre-roll.
     struct PreRoll {
         std::size_t bytes = 0;
         double seconds = 0;
@@ -103,11 +104,11 @@ class TakeRecorder {
     struct Item {
         std::optional<ArrivedFrame> frame;
         CameraRecord camera;
-        std::shared_ptr<const SoundBlock> sound;  ///< null: it is another item
+        std::shared_ptr<const SoundBlock> sound;  ///< null: another kind of item
         MonotonicTime arrival{};
         std::size_t bytes() const;
     };
-    /// A take on its way; of the thread.
+    /// A take in progress; used by the thread only.
     struct Take;
 
     void run();
@@ -127,11 +128,11 @@ class TakeRecorder {
     void note(const Take& take);
 
     const Settings settings_;
-    mutable std::mutex mutex_;  ///< of what follows; never held over a write or a codec
+    mutable std::mutex mutex_;  ///< guards the members below; never held during a write or codec
     std::condition_variable woken_, idle_;
     std::deque<Item> queue_, pre_roll_;
     std::size_t queued_bytes_ = 0, pre_roll_bytes_ = 0, most_queued_bytes_ = 0;
-    std::optional<std::filesystem::path> begin_;  ///< asked for, not begun yet
+    std::optional<std::filesystem::path> begin_;  ///< requested, but not begun yet
     bool is_taking_ = false, is_ending_ = false, is_stopping_ = false;
     TakeState state_;
     std::thread thread_;

@@ -15,7 +15,7 @@ extern "C" {
 namespace vantage {
 namespace {
 
-/// What a failure may cost: of the program where it does not hand over before, of the computer.
+/// The most that is lost by a crash of the program that does not hand over, or of the computer.
 constexpr std::int64_t longest_unwritten_ms = 500;
 constexpr std::chrono::milliseconds longest_unsynced{500};
 
@@ -41,7 +41,7 @@ TakeWriter::TakeWriter(std::filesystem::path path, TakeFacts facts)
     try {
         open();
     } catch (...) {
-        // The bytes are TakeFile's, and nothing is in it yet.
+        // The bytes belong to TakeFile.
         if (output_) output_->pb = nullptr;
         std::error_code ignored;
         std::filesystem::remove(path_, ignored);
@@ -57,7 +57,7 @@ void TakeWriter::open() {
     av_log_set_level(AV_LOG_ERROR);
     AVFormatContext* context = nullptr;
     if (avformat_alloc_output_context2(&context, nullptr, "matroska", nullptr) < 0)
-        fail("{} cannot be written: this FFmpeg comes without Matroska", path_.string());
+        fail("cannot write {}: this FFmpeg has no Matroska muxer", path_.string());
     output_.reset(context);
     output_->pb = file_->io();
     output_->flags |= AVFMT_FLAG_CUSTOM_IO | AVFMT_FLAG_BITEXACT;
@@ -94,7 +94,7 @@ void TakeWriter::open() {
 int TakeWriter::add_pictures(const TakePictures& pictures, const std::string& title) {
     if (pictures.codec == TakePictures::Codec::none) return -1;
     AVStream* stream = avformat_new_stream(output_.get(), nullptr);
-    if (!stream) fail("{} cannot be written: memory is short", path_.string());
+    if (!stream) fail("cannot write {}: out of memory", path_.string());
     stream->codecpar->codec_type = AVMEDIA_TYPE_VIDEO;
     stream->codecpar->codec_id = codec_id(pictures.codec);
     stream->codecpar->width = pictures.size_px.width;
@@ -103,7 +103,7 @@ int TakeWriter::add_pictures(const TakePictures& pictures, const std::string& ti
     stream->time_base = {1, 1000};
     const AVRational rate = av_d2q(facts_.pulse_rate_hz, 1001000);
     stream->avg_frame_rate = rate;
-    // What a player shows by itself is the first rig's colour.
+    // Players show the first rig's colour by default.
     if (stream->index == 0) stream->disposition |= AV_DISPOSITION_DEFAULT;
     av_dict_set(&stream->metadata, "title", title.c_str(), 0);
     return stream->index;
@@ -111,7 +111,7 @@ int TakeWriter::add_pictures(const TakePictures& pictures, const std::string& ti
 
 int TakeWriter::add_text(const std::string& title) {
     AVStream* stream = avformat_new_stream(output_.get(), nullptr);
-    if (!stream) fail("{} cannot be written: memory is short", path_.string());
+    if (!stream) fail("cannot write {}: out of memory", path_.string());
     stream->codecpar->codec_type = AVMEDIA_TYPE_SUBTITLE;
     stream->codecpar->codec_id = AV_CODEC_ID_SUBRIP;
     stream->time_base = {1, 1000};
@@ -121,7 +121,7 @@ int TakeWriter::add_text(const std::string& title) {
 
 int TakeWriter::add_sound_track() {
     AVStream* stream = avformat_new_stream(output_.get(), nullptr);
-    if (!stream) fail("{} cannot be written: memory is short", path_.string());
+    if (!stream) fail("cannot write {}: out of memory", path_.string());
     AVCodecParameters& parameters = *stream->codecpar;
     parameters.codec_type = AVMEDIA_TYPE_AUDIO;
     parameters.codec_id = AV_CODEC_ID_PCM_S24LE;
@@ -136,7 +136,7 @@ int TakeWriter::add_sound_track() {
 
 void TakeWriter::attach(const TakeAttachment& attachment) {
     AVStream* stream = avformat_new_stream(output_.get(), nullptr);
-    if (!stream) fail("{} cannot be written: memory is short", path_.string());
+    if (!stream) fail("cannot write {}: out of memory", path_.string());
     stream->codecpar->codec_type = AVMEDIA_TYPE_ATTACHMENT;
     set_setup(*stream->codecpar, attachment.bytes);
     av_dict_set(&stream->metadata, "filename", attachment.name.c_str(), 0);
@@ -165,7 +165,7 @@ bool TakeWriter::add(std::size_t rig, StoredFrame frame) {
     gaps_ += record.gap;
     tracks.last_pulse = record.pulse;
     tracks.last_ms = at_ms;
-    // FFmpeg opens no file that has tracks and no picture.
+    // FFmpeg opens no file with tracks but no frame.
     if (frames_ == 1) hand_over();
     return true;
 }
@@ -264,7 +264,7 @@ void TakeWriter::finish() {
 void TakeWriter::fail_writing(int code) {
     is_finished_ = true;
     file_->cut_to_whole();
-    fail("{} is ended after {:.1f} s: {}; what was written until then opens", path_.string(),
+    fail("{} ended after {:.1f} s: {}; what was written until then can be opened", path_.string(),
          duration_s(),
          file_->failure() != 0 ? std::string(std::strerror(file_->failure())) : av_reason(code));
 }
@@ -276,11 +276,10 @@ double TakeWriter::duration_s() const { return static_cast<double>(last_ms_ - fi
 void require_new_take(const std::filesystem::path& path, const char* done) {
     require_writable_output(path, {});
     if (path.extension() != ".mkv")
-        fail("{} cannot be {}: a take is a Matroska file, whose name ends in .mkv", path.string(),
-             done);
+        fail("{} cannot be {}: a take is a Matroska file, so its name has to end in .mkv",
+             path.string(), done);
     if (std::filesystem::exists(path))
-        fail("{} is there already, and a take never replaces a file: take another name",
-             path.string());
+        fail("{} exists, and a take never replaces a file: choose another name", path.string());
 }
 
 }  // namespace vantage

@@ -15,42 +15,42 @@ namespace vantage {
 
 class TakeFile;
 
-/// A frame as a take keeps it: coded pictures, which are never coded a second time.
+/// A frame in a take's form: encoded images, which are never encoded again.
 struct StoredFrame {
     FrameRecord record;
     std::vector<std::byte> colour, depth;  ///< empty: the frame has none
 };
 
-/// Writes a take. The file stands under its own name from the start. What is handed over outlives
-/// the program, and is on the disk half a second later: what ends the computer leaves a file that
-/// opens, but for that half second. Not thread-safe.
+/// Writes a take. The file has its final name from the start. Data that was handed over survives
+/// the end of the program, and is on disk half a second later, so that a power cut leaves a file
+/// that can be opened and lacks at most the last half second. Not thread-safe.
 class TakeWriter {
   public:
-    /// Throws Error if there is such a file already, or none can be made there.
+    /// Throws Error if the file exists or cannot be created.
     TakeWriter(std::filesystem::path path, TakeFacts facts);
     ~TakeWriter();
     TakeWriter(const TakeWriter&) = delete;
     TakeWriter& operator=(const TakeWriter&) = delete;
 
-    /// Fills in record.gap and the CRCs. The frame's time is its pulse's; one that names none has
-    /// that of its exposure. Throws Error if the disk fails: what is written by then opens.
+    /// Adds a frame and fills in record.gap and the CRCs. Its time is its pulse's, or its
+    /// exposure's if it has no pulse. Throws Error if the disk fails; the file can still be opened.
     /// False: the frame is before the take, or not later than the rig's frame before it.
     bool add(std::size_t rig, StoredFrame frame);
     /// False: the tick is before the take.
     bool add(const CameraRecord& camera);
 
-    /// Samples before the take, and those that are there already, are left out. False: all are.
-    /// Precondition: facts().has_sound.
+    /// Adds sound. Samples before the take, and samples that were added already, are skipped.
+    /// False: all were skipped. Precondition: facts().has_sound.
     bool add(const SoundBlock& sound);
-    /// The same, as another take holds it.
+    /// Adds sound in the stored form of another take.
     bool add_sound(std::int64_t first, std::span<const std::byte> stored);
 
-    /// Gives the system all that was added: a program that is killed loses nothing of it.
+    /// Passes all data to the system, so that it survives the end of the program.
     void hand_over();
-    /// Does so with what was kept back for half a second, and has the disk follow. To be called
-    /// often.
+    /// Hands over data older than half a second and syncs it to disk. Call it often.
     void flush_if_due();
-    /// Writes the index and closes. Throws Error if the disk fails; the file opens all the same.
+    /// Writes the index and closes the file. Throws Error if the disk fails; the file can still be
+    /// opened.
     void finish();
 
     const std::filesystem::path& path() const { return path_; }
@@ -88,19 +88,19 @@ class TakeWriter {
     int camera_track_ = -1;
     std::optional<std::int64_t> last_camera_ms_;
     int sound_track_ = -1, sound_record_track_ = -1;
-    std::int64_t next_sound_ = 0;  ///< sample; those before are there, or before the take
+    std::int64_t next_sound_ = 0;  ///< first sample that is neither added nor before the take
     std::uint64_t sound_samples_ = 0;
     std::uint64_t frames_ = 0, gaps_ = 0;
     std::int64_t first_ms_ = 0, last_ms_ = 0;
-    std::optional<std::int64_t> unwritten_ms_;  ///< time of the first that may not be on the disk
+    std::optional<std::int64_t> unwritten_ms_;  ///< time of the first data not handed over
     MonotonicTime unwritten_since_{};
-    bool is_unsynced_ = false;  ///< the system has what the disk may not have
+    bool is_unsynced_ = false;  ///< data was handed over since the last sync
     MonotonicTime synced_at_{};
     bool is_finished_ = false;
 };
 
-/// Throws Error if no take can be made there: no such folder, another ending than .mkv, or a file
-/// that is there. `done` says in the error what is not: "recorded".
+/// Throws Error if no take can be created: no such folder, an ending other than .mkv, or the file
+/// exists. `done` completes the sentence "PATH cannot be ...": "recorded".
 void require_new_take(const std::filesystem::path& path, const char* done);
 
 }  // namespace vantage

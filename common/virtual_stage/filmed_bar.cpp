@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 constexpr double board_light = 0.01;
-/// R, G and B of red LEDs, by the strongest.
+/// R, G and B of red LEDs, relative to the strongest.
 constexpr std::array<double, 3> led_colour = {1, 0.25, 0.15};
 
 unsigned char coded(double light) {
@@ -47,7 +47,7 @@ void FilmedBar::draw(ColourImage& picture, TaiTime begin) const {
         const int side = static_cast<int>(std::ceil(2 * reach_px)) + 1;
         return cv::Rect(low, cv::Size(side, side)) & cv::Rect(cv::Point(), picture.size());
     };
-    // The whole board first: tiles of neighbours overlap.
+    // The whole board first, since the tiles of neighbouring LEDs overlap.
     const unsigned char dark = coded(board_light);
     for (int led = 0; led < bar_.leds(); ++led)
         picture(tile_of(led)).setTo(cv::Scalar(dark, dark, dark, 255));

@@ -10,24 +10,24 @@
 
 namespace vantage {
 
-/// Where a picture shows the bar: its first (fastest) and its last LED.
+/// The position of the LED bar in an image: its first (fastest) and its last LED.
 struct BarPlace {
     cv::Point2d first_px, last_px;
     double led_radius_px = 3;
-    double led_light = 0.6;  ///< of a lit LED, linear; 1 is the most that a picture can show
+    double led_light = 0.6;  ///< of a lit LED, linear; 1 is white
 
-    /// Across the upper part of a picture, not quite level.
+    /// Across the upper part of the image, slightly tilted.
     static BarPlace across(cv::Size picture, int leds);
 };
 
-/// A bar of LEDs on a dark board before everything else, as a sensor sees it that exposes for a
-/// while: every LED as bright as the share of the exposure in which it was lit.
+/// Draws an LED bar on a dark board in front of everything else, as a sensor sees it during an
+/// exposure: each LED is as bright as the share of the exposure in which it is lit.
 class FilmedBar {
   public:
     /// Throws Error for an exposure that is not positive.
     FilmedBar(const SyncBar& bar, const BarPlace& place, std::chrono::nanoseconds exposure);
 
-    /// Draws it, sRGB-coded, as it was from `begin` on.
+    /// Draws the bar, sRGB-coded, as seen during the exposure that begins at `begin`.
     void draw(ColourImage& picture, TaiTime begin) const;
 
   private:

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/virtual_stage/tau.h"
+#include "common/virtual_stage/stage_mesh.h"
 
 namespace vantage {
 namespace {
@@ -15,7 +15,7 @@ using Eigen::Affine3f;
 using Eigen::AngleAxisf;
 using Eigen::Vector3f;
 
-// A figure of 1.75 m: y up, facing +z, its left is +x. Bones hang from the joints along -y, the
+// A figure of 1.75 m: y up, facing +z, its left is +x. Limbs hang from their joints along -y, the
 // trunk rises along +y. Other heights are scaled.
 constexpr float model_height_m = 1.75f;
 constexpr float hip_half_width_m = 0.095f, shoulder_half_width_m = 0.185f;
@@ -36,7 +36,7 @@ enum Bone {
     shin_right
 };
 
-/// Angles in radians. Pitch swings a limb forward, roll swings it out to its side.
+/// Angles in radians. Pitch swings a limb forward, roll swings it outwards.
 struct Limb {
     float pitch = 0, roll = 0, bend = 0;
 };
@@ -47,13 +47,13 @@ struct FigurePose {
     Limb left_arm, right_arm, left_leg, right_leg;
 };
 
-/// An angle that is kept in double precision until its sine is taken: every one turns a whole
-/// number of times in a loop, so that motion has no seam.
+/// An angle in double precision until its sine is taken. Each makes a whole number of turns in a
+/// loop, so that motion has no seam.
 using Turns = double;
 float sine(Turns turns) { return static_cast<float>(std::sin(2 * std::numbers::pi * turns)); }
 float cosine(Turns turns) { return static_cast<float>(std::cos(2 * std::numbers::pi * turns)); }
 
-/// The way that is walked, and legs whose strides are as long as it, so that feet do not slide.
+/// The pose of walking: strides match the distance covered, so that feet do not slide.
 FigurePose walk(const PerformerStyle& style, double share) {
     const double way_m = style.speed_m_per_s() * std::chrono::duration<double>(stage_loop).count();
     // People take longer strides when they walk faster.
@@ -141,7 +141,7 @@ double PerformerStyle::speed_m_per_s() const {
 }
 
 float PerformerStyle::reach_m() const {
-    // Of the model, over a loop: arms hang, a bent one stands out a little, or both are spread.
+    // Of the model, over a loop: arms hang, one is bent, or both are spread.
     const float model_reach_m = move == PerformerMove::walk   ? 0.42f
                                 : move == PerformerMove::sing ? 0.65f
                                                               : 0.95f;
@@ -173,7 +173,7 @@ void pose_performer(const PerformerStyle& style, std::chrono::nanoseconds stage_
          upper_arm_m, -1);
     hang(thigh_left, pelvis, {hip_half_width_m, 0, 0}, pose.left_leg, 1, thigh_m, 1);
     hang(thigh_right, pelvis, {-hip_half_width_m, 0, 0}, pose.right_leg, -1, thigh_m, 1);
-    // The lower foot stands on the floor; everything rises with it.
+    // The lower foot stands on the floor, so the whole figure rises with it.
     const auto sole = [&](Bone shin) {
         return (bones[shin] * Vector3f(0, -shin_m - sole_m, 0.03f)).y();
     };

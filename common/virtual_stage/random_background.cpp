@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
+#include "common/virtual_stage/stage_mesh.h"
 #include "common/virtual_stage/stage_scene.h"
 #include "common/virtual_stage/stage_textures.h"
-#include "common/virtual_stage/tau.h"
 
 namespace vantage {
 namespace {
@@ -14,7 +14,7 @@ using Eigen::Affine3f;
 using Eigen::AngleAxisf;
 using Eigen::Vector3f;
 
-/// Numbers from a seed, the same with every standard library (unlike its distributions).
+/// Random numbers from a seed, equal with every standard library (unlike its distributions).
 class Dice {
   public:
     explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -68,9 +68,8 @@ void add_room(StageMeshBuilder& mesh, Dice& dice) {
     }
 }
 
-/// The parts of the floor on which something may stand: off the performers' way, and on the rigs'
-/// side only near the performers, so that nothing stands right before a camera. The rigs' side is
-/// what lies within 80 degrees of +z.
+/// The floor area for objects: away from the performers' paths, and on the rigs' side (within 80
+/// degrees of +z) only near the performers, so that nothing stands right in front of a camera.
 class FreeFloor {
   public:
     explicit FreeFloor(const std::vector<PerformerStyle>& performers) {
@@ -83,7 +82,7 @@ class FreeFloor {
         way_to_m_ += gap_m;
     }
 
-    /// A place for what fits into a circle, up to `farthest_m` from the middle of the stage.
+    /// A place for an object of a radius, up to `farthest_m` from the middle of the stage.
     Vector3f place(Dice& dice, float radius_m, float farthest_m) const {
         for (;;) {
             const float azimuth = dice.between(-0.5f * tau, 0.5f * tau);
@@ -102,7 +101,7 @@ class FreeFloor {
     float way_from_m_ = 1e9f, way_to_m_ = 0;
 };
 
-/// Boards at any slant, free-standing between the performers and the walls.
+/// Adds free-standing slanted boards between the performers and the walls.
 void add_slanted_boards(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& free) {
     const int boards = 5 + dice.below(5);
     for (int i = 0; i < boards; ++i) {
@@ -184,7 +183,7 @@ StageLighting any_lighting(Dice& dice) {
     return lighting;
 }
 
-/// One to three performers, evenly spread on one round way, so that they never meet.
+/// One to three performers, evenly spaced on one circular path, so that they never meet.
 std::vector<PerformerStyle> any_cast(Dice& dice) {
     std::vector<PerformerStyle> performers;
     const int count = 1 + dice.below(3);

@@ -13,7 +13,7 @@ constexpr int quantile_bits = 12;
 constexpr int quantiles = 1 << quantile_bits;
 constexpr int fraction_bits = 8;
 
-/// A good 64-bit mixer (SplitMix64; Steele, Lea, Flood 2014).
+/// A 64-bit mixing function (SplitMix64; Steele, Lea, Flood 2014).
 std::uint64_t mix(std::uint64_t x) {
     x += 0x9E3779B97F4A7C15u;
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
@@ -45,7 +45,7 @@ void add_sensor_noise(ColourImage& picture, const SensorNoise& noise, int side,
     if (!(noise.sigma > 0) || noise.sigma > 128)
         fail("sensor noise of {} grey levels: it must be 0 to 128", noise.sigma);
     static const std::array<float, quantiles> normal = make_normal_quantiles();
-    // Fixed point keeps the inner loop to a look-up, an addition and a clamp.
+    // Fixed point reduces the inner loop to a table look-up, an addition and a clamp.
     std::vector<int> offsets(quantiles);
     for (std::size_t i = 0; i < offsets.size(); ++i)
         offsets[i] = static_cast<int>(

@@ -19,7 +19,7 @@ ScreenBounds::ScreenBounds(const StageCamera& camera)
 
 cv::Rect ScreenBounds::of(std::span<const Eigen::Vector3f> points_m) const {
     constexpr float nearest_m = 0.1f;
-    // What a sample spreads over: a pixel and a quarter to each side.
+    // The spread of a sample: 1.25 pixels to each side.
     constexpr float margin_px = 2;
     Eigen::Array2f low(1e9f, 1e9f), high(-1e9f, -1e9f);
     for (const Eigen::Vector3f& point : points_m) {
@@ -60,7 +60,7 @@ cv::Rect PictureParts::squares_of(const cv::Rect& part) const {
 
 std::vector<cv::Rect> PictureParts::rectangles() const {
     std::vector<cv::Rect> found;
-    std::vector<cv::Rect> above;  // those that end with the row before
+    std::vector<cv::Rect> above;  // rectangles that end with the previous row
     for (int y = 0; y < squares_.rows; ++y) {
         std::vector<cv::Rect> ending;
         for (int x = 0; x < squares_.cols; ++x) {

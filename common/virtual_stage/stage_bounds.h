@@ -10,13 +10,13 @@
 
 namespace vantage {
 
-/// Which rectangle of its picture a camera sees things in.
+/// Projects points of the scene to bounding rectangles in a camera's image.
 class ScreenBounds {
   public:
     explicit ScreenBounds(const StageCamera& camera);
 
-    /// Holds the pixels that show anything of what is between the points; the whole picture where
-    /// one is nearer than 10 cm or behind the camera.
+    /// The rectangle of all pixels that show anything of the points' convex hull; the whole image
+    /// if a point is nearer than 10 cm or behind the camera.
     cv::Rect of(std::span<const Eigen::Vector3f> points_m) const;
 
   private:
@@ -25,7 +25,7 @@ class ScreenBounds {
     cv::Rect picture_;
 };
 
-/// Parts of a picture, in squares, so that none is held twice.
+/// A region of an image, in squares, without overlap.
 class PictureParts {
   public:
     explicit PictureParts(cv::Size picture);
@@ -33,14 +33,14 @@ class PictureParts {
     void add(const cv::Rect& part);
     void add(const PictureParts& parts) { squares_ |= parts.squares_; }
     bool holds_any_of(const cv::Rect& part) const;
-    /// As rectangles that do not overlap.
+    /// The region as rectangles that do not overlap.
     std::vector<cv::Rect> rectangles() const;
 
   private:
     cv::Rect squares_of(const cv::Rect& part) const;
 
     cv::Rect picture_;
-    cv::Mat1b squares_;  ///< 255: held
+    cv::Mat1b squares_;  ///< 255: in the region
 };
 
 }  // namespace vantage

@@ -4,8 +4,6 @@
 #include <cassert>
 #include <cmath>
 
-#include "common/virtual_stage/tau.h"
-
 namespace vantage {
 namespace {
 
@@ -25,7 +23,7 @@ Vector3f normal_of(const StageVertex& v) {
     return Vector3f(n[0], n[1], n[2]);
 }
 
-/// Two directions that make a right-handed frame with an axis.
+/// Two directions that form a right-handed frame with an axis.
 struct Across {
     Vector3f u, v;
 };

@@ -5,7 +5,7 @@
 namespace vantage {
 
 Eigen::Matrix4f clip_from_world(const StageCamera& camera, double near_m, double far_m) {
-    // A pixel's centre u lies at u + 0.5 of the framebuffer's width.
+    // The centre of pixel u is at u + 0.5 of the framebuffer's width.
     const Eigen::Matrix3d& K = camera.K;
     Eigen::Matrix4d clip_from_camera = Eigen::Matrix4d::Zero();
     const double size[2] = {static_cast<double>(camera.width_px),

@@ -13,8 +13,8 @@ StageMaterial matte(int texture_layer, const Eigen::Vector3f& tint, float textur
     return material;
 }
 
-StageScene make_frame_set(std::uint64_t set) {
-    return set == 0 ? make_studio_background() : make_random_background(set);
+StageScene make_scene(std::uint64_t scene) {
+    return scene == 0 ? make_studio_background() : make_random_background(scene);
 }
 
 void add_performers(StageScene& scene) {

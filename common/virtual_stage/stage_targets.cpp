@@ -3,7 +3,7 @@
 namespace vantage {
 namespace {
 
-/// Buffers of one format each: drivers that draw with the processor copy their bytes.
+/// Copies between buffers of one format: software rasterisers copy their bytes.
 void copy(const Framebuffer& from, const Framebuffer& to, std::span<const cv::Rect> parts,
           int scale) {
     to.bind();

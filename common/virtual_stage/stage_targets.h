@@ -10,14 +10,13 @@
 
 namespace vantage {
 
-/// What a picture of one size is drawn into: several samples a pixel for colour, one, at the
-/// pixel's centre, for depth. Samples lie in a square grid in a larger texture: a software
-/// rasteriser draws four of them in the time of its four-fold multisampling, and textures and
-/// highlights gain as well as edges. Their order is kept as floats, which a shader hands on
-/// unchanged.
+/// The render targets for an image of one size: several colour samples per pixel, and one depth
+/// sample at the pixel's centre. The samples lie in a square grid in a larger texture: a software
+/// rasteriser draws four of them in the time of its 4x multisampling, and they also antialias
+/// textures and highlights. Their order is stored as floats, which a shader passes on unchanged.
 class StageTargets {
   public:
-    /// `samples_per_side` is 1 or 2. Throws Error if the driver cannot or memory is short.
+    /// `samples_per_side` is 1 or 2. Throws Error if the driver cannot draw it or memory runs out.
     StageTargets(cv::Size size, int samples_per_side);
 
     cv::Size size() const { return size_; }
@@ -25,16 +24,14 @@ class StageTargets {
     void bind_colour() const { sampled_target_.bind(); }
     void bind_depth() const { depth_target_.bind(); }
 
-    /// Takes the samples of another one of its kind in these parts of the picture, or all its
-    /// depth.
+    /// Copies the samples of another target of the same size in these parts, or all its depth.
     void copy_samples(const StageTargets& other, std::span<const cv::Rect> parts) const;
     void copy_depth(const StageTargets& other) const;
 
-    /// Makes pixels of the samples with `reduce` (stage_reduce.frag), in these parts of the picture
-    /// only.
+    /// Filters samples to pixels with `reduce` (stage_reduce.frag), in these parts only.
     void reduce_colour(FullscreenPass& reduce, std::span<const cv::Rect> parts) const;
     void read_colour(cv::Mat& image) const;
-    /// As CV_32SC1 holding the bits of floats.
+    /// Reads depth as CV_32SC1 with the bits of floats.
     void read_depth_bits(cv::Mat& image) const { depth_target_.read(0, image); }
 
   private:

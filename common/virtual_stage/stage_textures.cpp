@@ -10,11 +10,11 @@ namespace {
 constexpr int side = stage_texture_side_px;
 using Picture = cv::Mat3f;  // colours 0..1
 
-/// Smooth noise around 0 that tiles, with `cells` bumps along a side.
+/// Smooth noise around 0 that tiles, with `cells` bumps per side.
 cv::Mat1f noise_octave(cv::RNG& random, int cells_x, int cells_y) {
     cv::Mat1f lattice(cells_y, cells_x);
     random.fill(lattice, cv::RNG::UNIFORM, -1.0, 1.0);
-    // A wrapped border makes the enlarged lattice meet itself at the edges.
+    // A wrapped border makes the enlarged lattice continuous across the edges.
     constexpr int border = 2;
     cv::Mat1f wrapped;
     cv::copyMakeBorder(lattice, wrapped, border, border, border, border, cv::BORDER_WRAP);
@@ -24,7 +24,7 @@ cv::Mat1f noise_octave(cv::RNG& random, int cells_x, int cells_y) {
     return large(cv::Rect(border * scale_x, border * scale_y, side, side)).clone();
 }
 
-/// Octaves from `first_cells` down to single texels; each finer one has `gain` of the amplitude.
+/// Octaves from `first_cells` down to single texels; each finer one has `gain` times the amplitude.
 cv::Mat1f fractal_noise(cv::RNG& random, int first_cells, float gain = 0.6f) {
     cv::Mat1f sum(side, side, 0.0f);
     float amplitude = 1, total = 0;
@@ -54,7 +54,7 @@ cv::Scalar vivid(cv::RNG& random) {
     return {rgb(0, 0)[0], rgb(0, 0)[1], rgb(0, 0)[2]};
 }
 
-/// A drawing is made four times as large and brought down, so that its edges are smooth.
+/// Draws at four times the size and scales down, so that edges are antialiased.
 template <class Draw>
 Picture drawn(const cv::Scalar& background, Draw draw) {
     constexpr int oversampling = 4;
@@ -91,8 +91,8 @@ Picture draw_wood(cv::RNG& random) {
 }
 
 Picture draw_carpet(cv::RNG& random) {
-    // A lattice of diamonds, each with a dot. No two near ones have the same colours, so that a
-    // matcher can tell them apart.
+    // A lattice of diamonds, each with a dot. Near ones have different colours, so that a matcher
+    // can distinguish them.
     constexpr float pi = 3.14159265f;
     constexpr int cells = 8;
     const cv::Mat1f waves = fractal_noise(random, 4);
@@ -110,7 +110,7 @@ Picture draw_carpet(cv::RNG& random) {
         for (int x = 0; x < side; ++x) {
             const float u = cells * static_cast<float>(x) / side,
                         v = cells * static_cast<float>(y) / side;
-            // Diagonal cells; the ones past the middle are those of the next tile.
+            // Diagonal cells; those past the middle belong to the next tile.
             const float p = u + v, q = u - v + cells;
             int a = static_cast<int>(p), b = static_cast<int>(q);
             if (a >= cells) {
@@ -199,7 +199,7 @@ Picture draw_flowers(cv::RNG& random) {
             const cv::Point centre(random.uniform(0, n), random.uniform(0, n));
             const int petal = random.uniform(n / 60, n / 22);
             const cv::Scalar colour = vivid(random) * 255;
-            // Drawn once for every neighbour tile, so that the pattern tiles.
+            // Drawn once for every neighbouring tile, so that the pattern tiles.
             for (int dy = -n; dy <= n; dy += n)
                 for (int dx = -n; dx <= n; dx += n) {
                     const cv::Point at = centre + cv::Point(dx, dy);

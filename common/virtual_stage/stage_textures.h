@@ -7,7 +7,7 @@
 
 namespace vantage {
 
-/// The layers of the stage's texture array. All but the posters tile.
+/// The layers of the stage's texture array. All except the posters tile.
 enum class StageTexture {
     plain,
     wood,
@@ -30,8 +30,8 @@ enum class StageTexture {
 inline constexpr int stage_texture_count = 16;
 inline constexpr int stage_texture_side_px = 512;
 
-/// Draws every layer, stage_texture_side_px square, display-coded RGBA; detail at all scales. The
-/// same seed draws the same pictures.
+/// Draws every layer, display-coded RGBA with stage_texture_side_px sides and detail at all scales.
+/// The same seed draws the same images.
 std::vector<ColourImage> draw_stage_textures(std::uint64_t seed);
 
 }  // namespace vantage

@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
+#include "common/virtual_stage/stage_mesh.h"
 #include "common/virtual_stage/stage_scene.h"
 #include "common/virtual_stage/stage_textures.h"
-#include "common/virtual_stage/tau.h"
 
 namespace vantage {
 namespace {
@@ -25,7 +25,7 @@ StageMaterial glowing(const Vector3f& tint, float glow) {
     return material;
 }
 
-/// Local x to the right, y up, z towards the middle of the stage; origin on the floor at `radius`.
+/// A frame on the floor at `radius`: x to the right, y up, z towards the middle of the stage.
 Affine3f facing_middle(float azimuth, float radius_m) {
     return Affine3f(AngleAxisf(azimuth + 0.5f * tau, Vector3f::UnitY())) *
            Eigen::Translation3f(0, 0, -radius_m);
@@ -45,7 +45,7 @@ void add_floor(StageMeshBuilder& mesh) {
     mesh.set_material(polished);
     mesh.ring({0, 0, 0}, 2.1f, 2.75f, 64, 3);
     mesh.end_chunk();
-    // In quarters, so that those out of the picture are not drawn.
+    // In quarters, so that those outside the image are culled.
     for (int quarter = 0; quarter < 4; ++quarter) {
         mesh.begin_chunk({.casts_shadow = false});
         mesh.set_material(of(StageTexture::wood, {1, 1, 1}, 0.5f));
@@ -273,7 +273,7 @@ void add_plant(StageMeshBuilder& mesh, float azimuth, float radius) {
 
 void add_balls_and_blocks(StageMeshBuilder& mesh) {
     mesh.begin_chunk();
-    // Plain grey: nothing for a matcher to hold on to.
+    // Plain grey: a surface without texture for the matcher.
     mesh.set_placement(Affine3f(Eigen::Translation3f(1.75f, 0, 1.05f)) *
                        AngleAxisf(0.5f, Vector3f::UnitY()));
     mesh.set_material(of(StageTexture::plain, {0.60f, 0.60f, 0.61f}));

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-constexpr int points_per_side = 2;     ///< of a pixel seen through a lens
+constexpr int points_per_side = 2;     ///< sample points per pixel side, seen through a lens
 constexpr double widest_slope = 3.75;  ///< tan of 75 degrees
 
 const Eigen::Vector3d pivot_m(0, 1, 0);
@@ -23,7 +23,7 @@ void require(double value, double low, double high, const char* what) {
         fail("the virtual rig's {} is {}; it must be {} to {}", what, value, low, high);
 }
 
-/// Names a placement: the same one always, another one for others (FNV-1a over its numbers).
+/// The id of a placement (FNV-1a over its numbers).
 std::string placement_id(const VirtualRigPlacement& p) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     const auto add = [&](std::uint64_t word) {
@@ -39,7 +39,7 @@ std::string placement_id(const VirtualRigPlacement& p) {
     return fmt::format("{:016x}", hash);
 }
 
-/// Slopes (x/z, y/z) of the rays through points_per_side^2 points of every pixel.
+/// The slopes (x/z, y/z) of the rays through points_per_side^2 points of every pixel.
 cv::Mat2f ray_slopes(const CameraModel& model) {
     const int width = model.width_px * points_per_side, height = model.height_px * points_per_side;
     cv::Mat2f slopes(height, width);
@@ -106,10 +106,10 @@ VirtualRig::Sensor VirtualRig::make_sensor(const CameraModel& model,
         if (!cv::checkRange(channels[axis], true, nullptr, -widest_slope, widest_slope))
             fail(
                 "the lens sees further than 75 degrees off its axis, or its distortion folds the "
-                "picture: the virtual stage cannot be filmed through it");
+                "image: the virtual stage cannot be filmed through it");
         cv::minMaxLoc(channels[axis], &low[axis], &high[axis]);
     }
-    // As fine as the points, as far as a GPU picture reaches; two pixels of margin for filtering.
+    // As fine as the sample points, up to the GPU's limit; a margin of two pixels for filtering.
     constexpr double margin_px = 2;
     const double focal[2] = {points_per_side * model.fx_px, points_per_side * model.fy_px};
     double wide_focal[2];
@@ -149,8 +149,8 @@ VirtualRig::VirtualRig(const StereoCalibration& calibration, const SensorNoise& 
 ColourImage VirtualRig::see(const Sensor& sensor, VirtualStage& stage,
                             std::chrono::nanoseconds stage_time) {
     const bool has_lens = !sensor.positions.empty();
-    // Through a lens, the points of a pixel are its samples, spread like those of pinhole pictures:
-    // averaging them spreads by the deviation of points_per_side even steps already.
+    // Through a lens, the sample points of a pixel replace the point spread of pinhole images:
+    // averaging them blurs by the standard deviation of points_per_side uniform steps.
     ColourImage pinhole = stage
                               .render(sensor.camera, stage_time,
                                       {.pictures = StagePictures::colour,

@@ -9,22 +9,22 @@
 
 namespace vantage {
 
-/// Where a stereo rig stands around the virtual stage; it looks at the pivot (0, 1, 0).
+/// The placement of a stereo rig around the virtual stage; it looks at the pivot (0, 1, 0).
 struct VirtualRigPlacement {
-    double azimuth_rad = 0;  ///< around y, 0 = on +z, positive towards +x
+    double azimuth_rad = 0;  ///< around y; 0 is on +z, positive towards +x
     double elevation_rad = 0.17;
-    double distance_m = 4.5;  ///< of the middle between the two cameras from the pivot
+    double distance_m = 4.5;  ///< from the pivot to the middle between the two cameras
     double baseline_m = 0.12;
     double field_of_view_rad = 0.87;  ///< horizontal
     int width_px = 320, height_px = 240;
 };
 
-/// The calibration of an ideal (already rectified) rig standing there, world_from_left included.
-/// Throws Error for a placement that cannot be.
+/// The calibration, including world_from_left, of an ideal (already rectified) rig at a placement.
+/// Throws Error for an invalid placement.
 StereoCalibration ideal_virtual_rig(const VirtualRigPlacement& placement);
 
-/// Additive sensor noise: Gaussian, sigma in 8-bit grey levels, independent for every pixel and
-/// colour; other values for every seed, side and frame, the same for the same ones.
+/// Additive Gaussian sensor noise, sigma in 8-bit grey levels, independent for every pixel and
+/// colour. The same seed, side and frame give the same noise.
 struct SensorNoise {
     double sigma = 0;
     std::uint64_t seed = 1;
@@ -32,27 +32,27 @@ struct SensorNoise {
 
 struct VirtualStereoFrame {
     ColourImage left,
-        right;  ///< as the sensors see it: distorted and unrectified if the calibration is so
-    DisparityImage exact_disparity;  ///< of the rectified left picture, from exact depth
+        right;  ///< the sensor images: distorted and unrectified if the calibration is
+    DisparityImage exact_disparity;  ///< of the rectified left image, from the true depth
 };
 
-/// A stereo rig that films the virtual stage: an ideal one directly; for lenses with distortion a
-/// pinhole picture is rendered wide enough and twice as fine, and resampled through the lens model.
-/// What a lens needs is worked out once, here.
+/// A stereo rig that films the virtual stage. An ideal rig renders directly; for lenses with
+/// distortion, a wider pinhole image of twice the resolution is rendered and resampled through the
+/// lens model, whose map is computed once at construction.
 class VirtualRig {
   public:
-    /// Throws Error for an impossible calibration, and for lenses that see further than about 75
-    /// degrees off their axis, which no pinhole picture holds. Without exact disparity its frames
-    /// leave that empty, and cost a rendering less.
+    /// Throws Error for an invalid calibration, and for lenses that see further than about 75
+    /// degrees off their axis, which no pinhole image covers. Without exact disparity, frames leave
+    /// it empty and need one rendering less.
     VirtualRig(const StereoCalibration& calibration, const SensorNoise& noise,
                bool with_exact_disparity = true);
 
-    /// What the two sensors see at a time.
+    /// Renders the images of both sensors at a time.
     VirtualStereoFrame render(VirtualStage& stage, std::chrono::nanoseconds stage_time,
                               std::uint64_t frame_index) const;
 
-    /// The same in two steps: what is the same a whole loop of the stage later, and the noise.
-    /// The right sensor may see the stage later than the left one.
+    /// Renders without noise, so that the result can be reused a stage loop later; add_noise() adds
+    /// it. The right sensor may be skewed in time.
     VirtualStereoFrame render_noiseless(VirtualStage& stage, std::chrono::nanoseconds stage_time,
                                         std::chrono::nanoseconds right_later = {}) const;
     void add_noise(VirtualStereoFrame& frame, std::uint64_t frame_index) const;
@@ -60,8 +60,8 @@ class VirtualRig {
   private:
     struct Sensor {
         StageCamera camera;   ///< the pinhole camera to render
-        cv::Mat2f positions;  ///< in its picture, for 2 x 2 points of every pixel; empty: none
-        cv::Size size;        ///< of the sensor's picture
+        cv::Mat2f positions;  ///< in its image, for 2 x 2 points of every pixel; empty: none
+        cv::Size size;        ///< of the sensor's image
     };
     static Sensor make_sensor(const CameraModel& model, const Pose& world_from_camera);
     static ColourImage see(const Sensor& sensor, VirtualStage& stage,
@@ -74,16 +74,16 @@ class VirtualRig {
     bool with_exact_disparity_;
 };
 
-/// One frame of a VirtualRig made for it.
+/// Renders one frame with a temporary VirtualRig.
 VirtualStereoFrame render_virtual_rig(VirtualStage& stage, const StereoCalibration& calibration,
                                       std::chrono::nanoseconds stage_time,
                                       std::uint64_t frame_index, const SensorNoise& noise);
 
-/// The noise by itself; `side` 0 is left, 1 right.
+/// Adds noise to an image; `side` 0 is left, 1 right.
 void add_sensor_noise(ColourImage& picture, const SensorNoise& noise, int side,
                       std::uint64_t frame_index);
 
-/// Disparity on the wire from depth: rounded to its steps, 0 where it is unknown or not positive.
+/// Disparity from depth, rounded to its steps; 0 where depth is unknown or not positive.
 DisparityImage disparity_from_depth(const DepthImage& depth_m, const RectifiedStereo& geometry);
 
 }  // namespace vantage

@@ -32,13 +32,14 @@ constexpr double near_m = 0.1, far_m = 100;
 constexpr int max_bones = 40;
 constexpr int shadow_side_px = 1024;
 constexpr float shadow_half_size_m = 4.2f;
-constexpr std::size_t kept_targets = 4, kept_sets = 4;
-/// What a shadow reaches beyond its edge: look-ups lie beside the surface and between texels.
+constexpr std::size_t max_kept_targets = 4, max_kept_scenes = 4;
+/// The reach of a shadow beyond its edge: shadow map look-ups are offset from the surface and lie
+/// between texels.
 constexpr float shadow_margin_m = 0.05f;
 
 enum TextureUnit { unit_textures, unit_shadow };
 
-/// Set before every pass: the pass before may have been another's.
+/// Sets the GL state for drawing solids; called before every pass.
 void prepare_to_draw_solids() {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
@@ -46,11 +47,11 @@ void prepare_to_draw_solids() {
     glDisable(GL_BLEND);
     glDisable(GL_SCISSOR_TEST);
     glEnable(GL_CULL_FACE);
-    // Row 0 on top turns the picture over, and with it the winding of front faces.
+    // Row 0 at the top flips the image, and with it the winding of front faces.
     glFrontFace(GL_CW);
 }
 
-/// Puts framebuffer and viewport back, and the rest to GL's own defaults.
+/// Restores framebuffer and viewport, and sets the rest to GL's defaults.
 class StateGuard {
   public:
     StateGuard() {
@@ -79,9 +80,9 @@ bool are_same(const StageCamera& a, const StageCamera& b) {
            a.world_from_camera.matrix() == b.world_from_camera.matrix();
 }
 
-/// A camera's picture of the set, without what moves on it, and that with it.
-struct KeptBackground {
-    KeptBackground(const StageCamera& from, int samples_per_side)
+/// A camera's image of the scene, without performers (`still`) and with them (`moving`).
+struct KeptScene {
+    KeptScene(const StageCamera& from, int samples_per_side)
         : camera(from),
           still({from.width_px, from.height_px}, samples_per_side),
           moving({from.width_px, from.height_px}, samples_per_side),
@@ -91,12 +92,12 @@ struct KeptBackground {
 
     StageCamera camera;
     StageTargets still, moving;
-    std::vector<cv::Rect> seen;  ///< by triangle that performers may shade: where, or nowhere
-    PictureParts differing;      ///< where the colour of `moving` is not that of `still`
+    std::vector<cv::Rect> seen;  ///< per triangle that performers may shade: its place, or empty
+    PictureParts differing;      ///< where the colour of `moving` differs from `still`
     bool has_colour = false, has_depth = false;
 };
 
-/// Of the set, where shadows fall.
+/// A triangle of the scenery that receives shadows.
 struct Triangle {
     const StageChunk* chunk;
     std::size_t first_index;
@@ -104,7 +105,7 @@ struct Triangle {
     cv::Rect in_shadow_map;  ///< in texels
 };
 
-/// The shaders for one way of looking a surface up.
+/// The shader program of one chunk kind.
 struct ColourProgram {
     ShadowLookup shadow;
     bool glossy;
@@ -125,8 +126,8 @@ GlHandle<delete_texture> upload_textures(std::uint64_t seed) {
         glTexSubImage3D(GL_TEXTURE_2D_ARRAY, 0, 0, 0, layer++, image.cols, image.rows, 1, GL_RGBA,
                         GL_UNSIGNED_BYTE, image.data);
     glGenerateMipmap(GL_TEXTURE_2D_ARRAY);
-    // The steps between mip levels vanish in the samples of a pixel, and it is far cheaper than
-    // blending levels.
+    // A nearest mip level: the steps between levels vanish within the samples of a pixel, and it is
+    // far cheaper than blending levels.
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_REPEAT);
@@ -176,7 +177,7 @@ void validate(const StageCamera& camera) {
     if (!camera.K.allFinite() || !(camera.K(0, 0) > 0) || !(camera.K(1, 1) > 0) ||
         camera.K(2, 0) != 0 || camera.K(2, 1) != 0 || camera.K(2, 2) != 1)
         fail(
-            "the virtual camera's K needs focal lengths above 0 and the last row 0 0 1, and has "
+            "the virtual camera's K needs focal lengths above 0 and the last row 0 0 1, but has "
             "fx {} and fy {}",
             camera.K(0, 0), camera.K(1, 1));
     if (!camera.world_from_camera.matrix().allFinite())
@@ -221,7 +222,7 @@ struct VirtualStage::Impl {
         find_shadeable();
     }
 
-    /// The programs by what is drawn first: near and small before far and large.
+    /// The programs in drawing order: near and small chunks before far and large ones.
     static std::vector<ColourProgram> make_colour_programs(const ShaderLibrary& library) {
         std::vector<ColourProgram> programs;
         for (const ShadowLookup shadow :
@@ -246,7 +247,7 @@ struct VirtualStage::Impl {
                 world_from_bone.matrix().row(row).transpose();
     }
 
-    /// Leaves the set's own shadows only.
+    /// Draws the scenery's own shadows only.
     void take_performers_away() {
         shadow_target.bind();
         glBindFramebuffer(GL_READ_FRAMEBUFFER, still_shadow_target.name());
@@ -255,7 +256,7 @@ struct VirtualStage::Impl {
         posed_time.reset();
     }
 
-    /// Moves the performers and their shadows to a time, unless they are there.
+    /// Moves the performers and their shadows to a time.
     void go_to(std::chrono::nanoseconds time) {
         if (posed_time == time) return;
         std::array<Eigen::Affine3f, bones_of_performer> bones;
@@ -295,7 +296,7 @@ struct VirtualStage::Impl {
                        as_offset(offset));
     }
 
-    /// The chunks that the camera may see, nearest first, so that little is drawn to be covered.
+    /// The chunks that the camera may see, nearest first, to reduce overdraw.
     std::vector<const StageChunk*> in_view(const StageCamera& camera,
                                            const Eigen::Matrix4f& clip) const {
         const Frustum frustum = frustum_of(clip);
@@ -307,7 +308,7 @@ struct VirtualStage::Impl {
                 chunk.kind.animated ? Eigen::Vector3f(0, 1, 0) : chunk.centre_m;
             const float radius_m = chunk.kind.animated ? 2.9f : chunk.radius_m;
             if (!may_see_sphere(frustum, centre_m, radius_m)) continue;
-            // What is large lies behind what is small, mostly.
+            // Large chunks mostly lie behind small ones.
             seen.emplace_back((centre_m - eye_m).norm() + (chunk.kind.animated ? 0 : radius_m),
                               &chunk);
         }
@@ -325,7 +326,7 @@ struct VirtualStage::Impl {
         };
         const auto at = std::find_if(targets.begin(), targets.end(), same);
         if (at != targets.end()) return **at;
-        if (targets.size() == kept_targets) targets.erase(targets.begin());
+        if (targets.size() == max_kept_targets) targets.erase(targets.begin());
         targets.push_back(std::make_unique<StageTargets>(size, samples_per_side));
         return *targets.back();
     }
@@ -349,23 +350,23 @@ struct VirtualStage::Impl {
         program.set("shadow_map", static_cast<int>(unit_shadow));
     }
 
-    /// The picture of a camera's set, made anew where there is none; the one that was asked for
-    /// least recently goes for it.
-    KeptBackground& kept_set(const StageCamera& camera, int samples_per_side) {
-        const auto at = std::find_if(sets.begin(), sets.end(), [&](const auto& kept) {
+    /// The cached image of a camera without performers, rendered if missing. Replaces the least
+    /// recently used one.
+    KeptScene& kept_scene(const StageCamera& camera, int samples_per_side) {
+        const auto at = std::find_if(kept_scenes.begin(), kept_scenes.end(), [&](const auto& kept) {
             return kept->still.samples_per_side() == samples_per_side &&
                    are_same(kept->camera, camera);
         });
-        if (at != sets.end()) {
-            std::rotate(at, at + 1, sets.end());
-            return *sets.back();
+        if (at != kept_scenes.end()) {
+            std::rotate(at, at + 1, kept_scenes.end());
+            return *kept_scenes.back();
         }
-        if (sets.size() == kept_sets) sets.erase(sets.begin());
-        sets.push_back(std::make_unique<KeptBackground>(camera, samples_per_side));
-        return *sets.back();
+        if (kept_scenes.size() == max_kept_scenes) kept_scenes.erase(kept_scenes.begin());
+        kept_scenes.push_back(std::make_unique<KeptScene>(camera, samples_per_side));
+        return *kept_scenes.back();
     }
 
-    /// Triangles of the set on which shadows fall, and where they are in the shadow map.
+    /// Collects the triangles of the scenery that receive shadows, and their shadow map texels.
     void find_shadeable() {
         const std::vector<std::uint32_t>& index = scene.mesh.indices();
         for (const StageChunk& chunk : scene.mesh.chunks()) {
@@ -383,7 +384,7 @@ struct VirtualStage::Impl {
         }
     }
 
-    /// The texels of the shadow map that points may be shaded by, or shade.
+    /// The texels of the shadow map through which the points may be shaded or cast shadows.
     cv::Rect in_shadow_map(std::span<const Eigen::Vector3f> points) const {
         constexpr float margin = shadow_margin_m * shadow_side_px / (2 * shadow_half_size_m);
         Eigen::Array2f low(1e9f, 1e9f), high(-1e9f, -1e9f);
@@ -398,7 +399,7 @@ struct VirtualStage::Impl {
         return {cv::Point(from.x(), from.y()), cv::Point(to.x(), to.y())};
     }
 
-    /// The triangles that performers may shade where they are now, chunk after chunk, for the GPU.
+    /// Uploads the triangles that performers may shade at the moment, chunk by chunk.
     void find_shaded() {
         PictureParts dark({shadow_side_px, shadow_side_px});
         for (const std::vector<Eigen::Vector3f>& points : points_m_of_bone)
@@ -415,7 +416,7 @@ struct VirtualStage::Impl {
         shaded_indices = Buffer::of(std::span(std::as_const(order)), GL_STREAM_DRAW);
     }
 
-    /// Draws the surfaces under shadows once more, exactly where they are.
+    /// Draws the surfaces under moving shadows again, at exactly the same depth.
     void draw_shaded(const StageCamera& camera, const Eigen::Matrix4f& clip) {
         std::vector<const StageChunk*> chunks;
         for (const std::size_t t : shaded)
@@ -431,14 +432,14 @@ struct VirtualStage::Impl {
                            as_offset(3 * sizeof(std::uint32_t) *
                                      static_cast<std::size_t>(first - shaded.begin())));
         });
-        // The vertex array remembers which indices it draws.
+        // The vertex array stores its index buffer.
         vertex_array.bind();
         indices.bind(GL_ELEMENT_ARRAY_BUFFER);
         glDepthFunc(GL_LESS);
     }
 
-    /// The parts of the picture that show performers, or what they may shade.
-    PictureParts changing_parts(const KeptBackground& kept) const {
+    /// The parts of the image that show performers or surfaces that they may shade.
+    PictureParts changing_parts(const KeptScene& kept) const {
         const ScreenBounds bounds(kept.camera);
         PictureParts parts(kept.moving.size());
         for (const std::vector<Eigen::Vector3f>& points : points_m_of_bone)
@@ -447,7 +448,7 @@ struct VirtualStage::Impl {
         return parts;
     }
 
-    /// Draws what `draws` calls for, with the program of each of `chunks`.
+    /// Calls `draws` for each of `chunks` with its program in use.
     template <class Draws>
     void draw_colours(const StageCamera& camera, const Eigen::Matrix4f& clip,
                       const std::vector<const StageChunk*>& chunks, Draws draws) {
@@ -477,8 +478,8 @@ struct VirtualStage::Impl {
         target.reduce_colour(reduce, {&whole, 1});
     }
 
-    /// Draws what moves, and its shadows, over the set.
-    void draw_colour_over(KeptBackground& kept, const std::vector<const StageChunk*>& chunks) {
+    /// Draws performers and their shadows over the cached scenery.
+    void draw_colour_over(KeptScene& kept, const std::vector<const StageChunk*>& chunks) {
         const StageCamera& camera = kept.camera;
         const StageTargets& target = kept.moving;
         const Eigen::Matrix4f clip = clip_from_world(camera, near_m, far_m);
@@ -533,7 +534,7 @@ struct VirtualStage::Impl {
             in_view(camera, clip_from_world(camera, near_m, far_m));
         const bool with_colour = options.pictures != StagePictures::depth,
                    with_depth = options.pictures != StagePictures::colour;
-        KeptBackground* kept = options.stands_still ? &kept_set(camera, samples_per_side) : nullptr;
+        KeptScene* kept = options.stands_still ? &kept_scene(camera, samples_per_side) : nullptr;
         const StageTargets& target =
             kept ? kept->moving
                  : targets_for({camera.width_px, camera.height_px}, samples_per_side);
@@ -586,17 +587,17 @@ struct VirtualStage::Impl {
     Eigen::Matrix4f shadow_from_world;
     std::vector<Eigen::Vector4f> bone_rows;
     std::vector<std::vector<Eigen::Vector3f>> vertices_of_bone;  ///< in the bone's frame
-    std::vector<std::vector<Eigen::Vector3f>> points_m_of_bone;  ///< where these are now
+    std::vector<std::vector<Eigen::Vector3f>> points_m_of_bone;  ///< at the current time
     std::vector<Triangle> shadeable;
-    std::vector<std::size_t> shaded;       ///< the shadeable ones that performers may shade now
-    std::optional<Buffer> shaded_indices;  ///< of their corners
+    std::vector<std::size_t> shaded;       ///< triangles that performers may shade at the moment
+    std::optional<Buffer> shaded_indices;  ///< their corners
     std::optional<std::chrono::nanoseconds> posed_time;
     std::vector<std::unique_ptr<StageTargets>> targets;
-    std::vector<std::unique_ptr<KeptBackground>> sets;
+    std::vector<std::unique_ptr<KeptScene>> kept_scenes;
 };
 
-VirtualStage::VirtualStage(const ShaderLibrary& library, std::uint64_t set)
-    : impl_(std::make_unique<Impl>(library, make_frame_set(set))) {}
+VirtualStage::VirtualStage(const ShaderLibrary& library, std::uint64_t scene)
+    : impl_(std::make_unique<Impl>(library, make_scene(scene))) {}
 VirtualStage::~VirtualStage() = default;
 VirtualStage::VirtualStage(VirtualStage&&) noexcept = default;
 VirtualStage& VirtualStage::operator=(VirtualStage&&) noexcept = default;

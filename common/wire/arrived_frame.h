@@ -8,16 +8,16 @@
 
 namespace vantage {
 
-/// A frame as it came from a rig, not decoded yet. Shared and never changed.
+/// A frame as received from a rig, not decoded. Immutable, with shared ownership.
 struct ArrivedFrame {
-    std::size_t rig = 0;  ///< its place in the stage
+    std::size_t rig = 0;  ///< index in the stage
     std::shared_ptr<const PackedFrame> packed;
     LinkCounters link;
     MonotonicTime arrival{};
     TaiTime arrival_tai{};
 };
 
-/// Is shown every frame that comes, on the thread that receives: it must never wait.
+/// Called with every received frame on the receiving thread; it must never block.
 using FrameTap = std::function<void(const ArrivedFrame&)>;
 
 }  // namespace vantage

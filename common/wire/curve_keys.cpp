@@ -26,12 +26,12 @@ constexpr int key_file_version = 1;
 
 using Z85Buffer = std::array<char, z85_chars + 1>;
 
-/// The user and the group that a rig's daemon runs as, where its package is installed.
+/// The user and group of the rig's daemon where its package is installed.
 constexpr const char* service_name = "vantage";
 
 KeyFileReader this_reader() {
     KeyFileReader reader{.users = {0, ::geteuid()}, .groups = {::getegid()}};
-    // An administrator looks at the service's own files, too.
+    // An administrator may read the service's own files.
     if (const passwd* service = ::getpwnam(service_name)) reader.users.insert(service->pw_uid);
     if (const group* service = ::getgrnam(service_name)) reader.groups.insert(service->gr_gid);
     return reader;
@@ -57,7 +57,7 @@ std::string key_file_fault(const KeyFileFacts& file, const KeyFileReader& reader
     constexpr mode_t permissions = S_IRWXU | S_IRWXG | S_IRWXO;
     if (!reader.users.contains(file.owner))
         return fmt::format(
-            "belongs to user {}, who is neither root nor the one who reads it; chown root",
+            "belongs to user {}, who is neither root nor the user reading it; chown root",
             file.owner);
     if ((file.mode & S_IRWXO) != 0)
         return fmt::format("is open to everybody (mode {:o}); chmod o=", file.mode & permissions);
@@ -87,7 +87,7 @@ void write_key_file(const std::filesystem::path& path, const CurveKeys& keys) {
         key_file_version, keys.public_key, keys.secret_key);
     const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, S_IRUSR | S_IWUSR);
     if (fd < 0 && errno == EEXIST)
-        fail("{} exists and is left as it is; remove it first if its key is to be given up",
+        fail("{} exists and is not replaced; remove it first if you no longer need its key",
              path.string());
     if (fd < 0) fail("cannot write {}: {}", path.string(), std::strerror(errno));
     const bool whole = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) &&
@@ -108,7 +108,7 @@ CurveKeys load_key_file(const std::filesystem::path& path) {
         fail("key file {} line {} is not TOML: {}", path.string(), error.source().begin.line,
              error.description());
     }
-    // Not value_or(): toml++ would cast a number with a fraction, and of any size, to an integer.
+    // Not value_or(): toml++ would convert a fraction or a huge number to an integer.
     const toml::value<std::int64_t>* version = table["version"].as_integer();
     if (!version || version->get() != key_file_version)
         fail("key file {} is not of version {}; make one with: keys new FILE", path.string(),

@@ -15,10 +15,10 @@
 namespace vantage {
 namespace {
 
-/// How far rows of a rotation may be from unit length and right angles: poses pass through text
+/// The tolerance for unit length and right angles of a rotation, since poses pass through text
 /// files.
 constexpr double rotation_tolerance = 1e-4;
-/// No stage is larger; a pose beyond it is a mistake in units.
+/// A pose further away is taken for a mistake in units.
 constexpr double max_distance_m = 1e5;
 constexpr double max_focal_length_px = 1e6;
 
@@ -73,11 +73,11 @@ void check_times(const wire::StageTimes& times) {
     check_range("times.pack_ms", times.pack_ms(), 0, an_hour_ms);
 }
 
-/// Everything that can be said about a header without the payloads; both directions go through it.
+/// Validates a header without its payloads. Encoder and decoder both use it.
 Pose check_header(const wire::FrameHeader& header) {
     check_schema_version("frame", header.schema_version());
-    // The last fields of a header are always written, so that one cut short between two fields
-    // shows.
+    // The last fields of a header are always written, so that a truncation between two fields is
+    // noticed.
     if (!header.has_times() || !header.has_counters() || !header.has_sync())
         fail("a frame header is truncated");
     check_name("rig", header.rig());
@@ -101,17 +101,17 @@ Pose check_header(const wire::FrameHeader& header) {
         return Pose::Identity();
     }
     if (header.content() != wire::FrameHeader::VIEW)
-        fail("a frame's content {} is not known here", static_cast<int>(header.content()));
+        fail("a frame has the unknown content {}", static_cast<int>(header.content()));
     check_geometry(geometry);
     if (header.disparity_codec() != wire::FrameHeader::DISPARITY_NONE) {
         check_size("disparity", header.disparity_width_px(), header.disparity_height_px());
         if (header.disparity_width_px() > header.geometry().width_px() ||
             header.disparity_height_px() > header.geometry().height_px())
-            fail("a disparity picture of {}x{} does not fit a colour picture of {}x{}",
+            fail("a disparity image of {}x{} does not fit a colour image of {}x{}",
                  header.disparity_width_px(), header.disparity_height_px(),
                  header.geometry().width_px(), header.geometry().height_px());
     } else if (header.colour_codec() == wire::FrameHeader::COLOUR_NONE) {
-        fail("a frame without colour and without disparity carries nothing");
+        fail("a frame has neither colour nor disparity");
     }
     if (header.right_jpeg_bytes() > 0 && header.colour_codec() != wire::FrameHeader::COLOUR_JPEG)
         fail("a frame whose colour is no JPEG has a right picture of {} bytes behind it",
@@ -119,7 +119,7 @@ Pose check_header(const wire::FrameHeader& header) {
     return to_pose(header.geometry());
 }
 
-/// A payload longer than the picture it holds is hostile; an empty one is expected without codec.
+/// Refuses a payload longer than its image could be, and an empty one where an image is expected.
 void check_payload(std::string_view what, bool expected, std::size_t bytes, std::size_t raw_bytes) {
     if (!expected && bytes > 0)
         fail("a frame without {} carries a {} payload of {} bytes", what, what, bytes);
@@ -175,8 +175,8 @@ struct FrameEncoder::Impl {
     Impl(int quality, Chroma chroma) : jpeg_quality(quality), packer(quality, chroma) {}
 
     int jpeg_quality;
-    ColourPacker packer;                    ///< of views
-    LosslessColourEncoder lossless_colour;  ///< of raw pairs
+    ColourPacker packer;                    ///< for views
+    LosslessColourEncoder lossless_colour;  ///< for raw pairs
     DisparityEncoder disparity;
 };
 
@@ -188,7 +188,7 @@ FrameEncoder::~FrameEncoder() = default;
 PackedFrame FrameEncoder::encode(RigFrame& frame) {
     const MonotonicTime start = MonotonicClock::now();
     const bool is_raw_pair = frame.content == RigFrame::Content::raw_pair;
-    // Corners are measured to a hundredth of a pixel.
+    // Calibration measures corners to 0.01 px, so raw pairs are lossless.
     const bool lossless = impl_->jpeg_quality == 0 || is_raw_pair;
     wire::FrameHeader header;
     header.set_schema_version(wire_schema_version);
@@ -301,7 +301,7 @@ FrameHead decode_frame_head(std::span<const std::byte> part) {
             head.colour = FrameHead::Colour::lossless;
             break;
         default:
-            fail("colour codec {} is not known here", static_cast<int>(header.colour_codec()));
+            fail("the colour codec {} is unknown", static_cast<int>(header.colour_codec()));
     }
     switch (header.disparity_codec()) {
         case wire::FrameHeader::DISPARITY_NONE:

@@ -11,24 +11,23 @@
 
 namespace vantage {
 
-/// A frame as it travels: the three parts that follow the RigMessage of its delivery.
+/// A frame in its wire form: the three message parts that follow a RigMessage.
 struct PackedFrame {
     std::uint64_t trigger_index = 0;
     bool is_raw_pair = false;
     std::vector<std::byte> header;     ///< FrameHeader of frame.proto
-    std::vector<std::byte> colour;     ///< JPEG or lossless; empty where the frame has no colour.
-                                       ///< Behind a JPEG that of the right picture, now and then
-    std::vector<std::byte> disparity;  ///< lossless; empty where the frame has no disparity. Of a
-                                       ///< raw pair: the right picture
+    std::vector<std::byte> colour;     ///< JPEG or lossless; empty: no colour. A JPEG may be
+                                       ///< followed by that of the right image
+    std::vector<std::byte> disparity;  ///< lossless; empty: no disparity. In a raw pair: the right
+                                       ///< image
 
     std::size_t bytes() const { return header.size() + colour.size() + disparity.size(); }
 };
 
-/// Packs a view's colour ahead of the rest, on another thread than its FrameEncoder's. Not
-/// thread-safe.
+/// Packs a view's colour early, on another thread than its FrameEncoder. Not thread-safe.
 class ColourPacker {
   public:
-    /// As the FrameEncoder's that packs the rest.
+    /// With the settings of the FrameEncoder that packs the rest.
     explicit ColourPacker(int jpeg_quality, Chroma chroma = Chroma::quarter);
     ~ColourPacker();
 
@@ -40,16 +39,15 @@ class ColourPacker {
     std::unique_ptr<Impl> impl_;
 };
 
-/// RigFrame to parts. Keeps its codecs between frames. Not thread-safe.
+/// Encodes a RigFrame to message parts. Keeps its codecs between frames. Not thread-safe.
 class FrameEncoder {
   public:
-    /// jpeg_quality 1..100, or 0 for lossless colour. Raw pairs are always lossless.
+    /// `jpeg_quality` is 1..100, or 0 for lossless colour. Raw pairs are always lossless.
     explicit FrameEncoder(int jpeg_quality, Chroma chroma = Chroma::quarter);
     ~FrameEncoder();
 
-    /// Takes over packed_colour, where there is one. Fills in frame.times.pack_ms and
-    /// frame.published. Throws Error naming the first value that may not travel: what it packs,
-    /// every decoder takes.
+    /// Uses packed_colour if present. Fills in frame.times.pack_ms and frame.published. Throws
+    /// Error naming the first invalid value: decoders accept everything that it returns.
     PackedFrame encode(RigFrame& frame);
 
   private:
@@ -57,36 +55,36 @@ class FrameEncoder {
     std::unique_ptr<Impl> impl_;
 };
 
-/// What a frame's header says, before its pictures are decoded.
+/// The content of a frame's header, before its images are decoded.
 struct FrameHead {
     enum class Colour { none, jpeg, lossless };
-    RigFrame frame;  ///< all but its pictures; geometry has the colour's size
+    RigFrame frame;  ///< without its images; geometry has the colour's size
     Colour colour = Colour::none;
     std::size_t right_jpeg_bytes = 0;  ///< at the end of the colour payload
-    cv::Size disparity_px;             ///< 0x0: the frame has none
+    cv::Size disparity_px;             ///< 0x0: no disparity
 };
-/// Throws Error as FrameDecoder::decode.
+/// Throws Error like FrameDecoder::decode.
 FrameHead decode_frame_head(std::span<const std::byte> header);
 
-/// The pictures in a colour payload.
+/// The images in a colour payload.
 struct ColourParts {
-    std::span<const std::byte> left, right;  ///< right: a JPEG; empty: there is none
+    std::span<const std::byte> left, right;  ///< right: a JPEG; empty: none
 };
-/// Throws Error where the payload is too short for what the head says.
+/// Throws Error if the payload is shorter than the head states.
 ColourParts colour_parts(const FrameHead& head, std::span<const std::byte> colour);
 
-/// A copy; null if there are none.
+/// A copy of the bytes; null if there are none.
 SharedBytes shared(std::span<const std::byte> bytes);
 
-/// Parts to RigFrame. Keeps its codecs between frames. Not thread-safe.
+/// Decodes message parts to a RigFrame. Keeps its codecs between frames. Not thread-safe.
 class FrameDecoder {
   public:
     FrameDecoder();
     ~FrameDecoder();
 
-    /// Takes nothing on trust: throws Error with one sentence for what is truncated, oversized, of
-    /// another schema version, of sizes that contradict each other, not finite or no rigid pose,
-    /// all before memory is taken for the pictures.
+    /// Decodes untrusted parts. Throws Error with one sentence if they are truncated, oversized, of
+    /// another schema version, contradictory in size, not finite, or without a rigid pose. Checks
+    /// all this before it allocates memory for images.
     RigFrame decode(std::span<const std::byte> header, std::span<const std::byte> colour,
                     std::span<const std::byte> disparity);
 

@@ -89,13 +89,12 @@ RigSync from_wire(const wire::Sync& sync) {
          {static_cast<double>(sync.lateness_p50_us()), static_cast<double>(sync.lateness_p99_us()),
           static_cast<double>(sync.lateness_max_us()), sync.clock_ppm(), sync.clock_step_ms(),
           sync.ptp_offset_ns(), sync.ptp_path_delay_ns(), sync.rate_hz()})
-        if (!std::isfinite(value)) fail("a rig's sync state holds {}, which is no number", value);
-    // Within what a PulseGrid takes.
+        if (!std::isfinite(value)) fail("a rig's sync state holds {}, which is not finite", value);
+    // The range of PulseGrid.
     if (sync.rate_hz() != 0 && (sync.rate_hz() < 0.001 || sync.rate_hz() > 1e6))
         fail("a rig's rate of {} Hz is outside 0.001..1000000", sync.rate_hz());
     if (sync.role() < wire::Sync::FREE || sync.role() > wire::Sync::FOLLOW)
-        fail("a rig's sync state has the role {}, which is not known here",
-             static_cast<int>(sync.role()));
+        fail("a rig's sync state has the unknown role {}", static_cast<int>(sync.role()));
     if (sync.first_pulse() > max_trigger_index)
         fail("a first pulse of {} is beyond {}", sync.first_pulse(), max_trigger_index);
     if (!sync.ptp_state().empty()) check_name("PTP state", sync.ptp_state());

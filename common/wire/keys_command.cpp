@@ -38,17 +38,17 @@ CLI::App* add_action(CLI::App& parent, const char* name, const char* description
 
 void add_keys_command(CLI::App& program) {
     CLI::App* keys = program.add_subcommand(
-        "keys", "Make and show the keys that rigs and hosts know each other by");
+        "keys", "Create and show the keys with which rigs and hosts authenticate each other");
     keys->require_subcommand(1);
     const auto options = std::make_shared<Options>();
-    add_action(*keys, "new", "Make a key pair and print its public key", *options,
-               "Where to write the pair; nothing is overwritten")
+    add_action(*keys, "new", "Create a key pair and print its public key", *options,
+               "Write the key pair to this file; an existing file is not replaced")
         ->callback([options] {
             const CurveKeys made = generate_curve_keys();
             write_key_file(options->file, made);
             print_public_key(*options, made);
         });
-    add_action(*keys, "show", "Print the public key of a pair", *options, "A key file")
+    add_action(*keys, "show", "Print the public key of a key file", *options, "Read this key file")
         ->callback([options] { print_public_key(*options, load_key_file(options->file)); });
 }
 

@@ -6,8 +6,8 @@ class App;
 
 namespace vantage {
 
-/// `keys new FILE` and `keys show FILE`, the same on rig and host: make a key pair, print its
-/// public half.
+/// Adds `keys new FILE` and `keys show FILE`, which are the same on rig and host: create a key
+/// pair, print its public key.
 void add_keys_command(CLI::App& program);
 
 }  // namespace vantage

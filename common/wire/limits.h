@@ -5,36 +5,35 @@
 
 namespace vantage {
 
-// What either end of the wire accepts. A message beyond any of these is refused before memory is
-// taken for it.
+// The limits of messages for both ends of the wire protocol. A message beyond a limit is refused
+// before memory is allocated for it.
 
-/// Version of frame.proto and link.proto; an end that speaks another one is refused with a
-/// sentence.
+/// The version of frame.proto and link.proto; an end with another version is refused.
 inline constexpr std::uint32_t wire_schema_version = 2;
 
-/// Largest picture side: the largest image a Raspberry Pi's GPU holds.
+/// The largest side of an image: the limit of a Raspberry Pi's GPU.
 inline constexpr int max_picture_side_px = 4096;
 
-/// Serialised FrameHeader, RigMessage or HostMessage.
+/// The size of a serialised FrameHeader, RigMessage or HostMessage.
 inline constexpr std::size_t max_header_bytes = 4096;
 
-/// What a rig says of itself for help, as JSON.
+/// The size of a rig's report for a bug report (JSON).
 inline constexpr std::size_t max_report_bytes = std::size_t{1} << 20;
 
-/// A compressed payload may be this much larger than the picture it holds, and no more.
+/// By how much a compressed payload may exceed its uncompressed image.
 inline constexpr std::size_t payload_slack_bytes = 64 * 1024;
 
-/// Largest part of any message: a picture of the largest size that does not compress at all.
+/// The largest message part: an incompressible image of the largest size.
 inline constexpr std::size_t max_part_bytes =
     std::size_t{4} * max_picture_side_px * max_picture_side_px + payload_slack_bytes;
 
-/// Rig names, calibration ids.
+/// The length of rig names and calibration ids.
 inline constexpr std::size_t max_name_chars = 64;
 
-/// Up to here an index is exact as a double, and index times period is far from overflow.
+/// Up to this value an index is exact as a double, and index times period cannot overflow.
 inline constexpr std::uint64_t max_trigger_index = std::uint64_t{1} << 53;
 
-/// Frames that may be under way to one host, whatever credit it gives.
+/// The number of frames on the way to one host, whatever credit it gives.
 inline constexpr std::uint32_t max_credit_window = 16;
 
 inline constexpr std::uint32_t max_rate_divisor = 1000;

@@ -16,7 +16,7 @@ void check_printable(std::string_view what, std::string_view text) {
         if (static_cast<unsigned char>(c) < ' ') fail("a {} with control characters came", what);
 }
 
-/// Of a refusal, and of what is wrong with a fetch.
+/// The length of a refusal, and of a fetch's trouble.
 constexpr std::size_t max_refusal_chars = 512;
 constexpr std::size_t max_date_chars = 40, max_version_chars = 40;
 
@@ -35,7 +35,7 @@ void to_wire(const RigHealth& health, wire::Health& out) {
 RigHealth from_wire(const wire::Health& in) {
     for (const float value :
          {in.temperature_c(), in.captured_hz(), in.published_hz(), in.calibration_row_rms_px()})
-        if (!std::isfinite(value)) fail("a rig's health holds {}, which is no number", value);
+        if (!std::isfinite(value)) fail("a rig's health holds {}, which is not finite", value);
     if (!in.calibration_id().empty()) check_name("calibration", in.calibration_id());
     const std::string& date = in.calibration_date();
     if (date.size() > max_date_chars)
@@ -60,15 +60,15 @@ RigHealth from_wire(const wire::Health& in) {
 }
 
 FetchRequest from_wire(const wire::Fetch& in) {
-    if (in.id() == 0) fail("a fetch without id came");
+    if (in.id() == 0) fail("a fetch without an id came");
     if (in.to_pulse() > max_trigger_index || in.from_pulse() >= in.to_pulse())
-        fail("a fetch of the pulses from {} to before {} came, which are none up to {}",
+        fail("a fetch of the pulses from {} to before {} came, which is not a range up to {}",
              in.from_pulse(), in.to_pulse(), max_trigger_index);
     return {in.id(), in.from_pulse(), in.to_pulse(), in.granted()};
 }
 
 FetchState from_wire(const wire::Fetched& in) {
-    if (in.id() == 0) fail("an answer to a fetch without id came");
+    if (in.id() == 0) fail("an answer to a fetch without an id came");
     if (in.trouble().size() > max_refusal_chars)
         fail("a trouble of {} characters is beyond the limit of {}", in.trouble().size(),
              max_refusal_chars);

@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-/// Never 0; from the system's entropy.
+/// A random number from the system, never 0.
 std::uint64_t random_id();
 
 }  // namespace vantage

@@ -85,7 +85,8 @@ std::string health_text(const RigHealth& health) {
     if (health.temperature_c) text += fmt::format("; {:.0f} C", *health.temperature_c);
     if (health.under_voltage) text += "; UNDER-VOLTAGE: use a stronger supply or a shorter cable";
     if (health.refused_connections > 0)
-        text += fmt::format("; refused {} connections of strangers", health.refused_connections);
+        text += fmt::format("; refused {} connections that are not from a host",
+                            health.refused_connections);
     if (!health.program_version.empty()) text += "; version " + health.program_version;
     if (health.calibration_date.empty()) return text + "; no calibration file";
     return text + fmt::format("; calibrated {}, rows to {:.2f} px", health.calibration_date,

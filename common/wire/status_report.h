@@ -9,18 +9,17 @@
 
 namespace vantage {
 
-// A rig's state as rig and host show it, for machines and for people.
+// A rig's state as JSON and as text for people, the same on rig and host.
 
 nlohmann::ordered_json to_json(const Percentiles& percentiles);
 nlohmann::ordered_json to_json(const RigCounters& counters);
 nlohmann::ordered_json to_json(const RigSync& sync);
-/// `temperature_c` is null where the computer has no sensor, `calibration` is null where it has
-/// none.
+/// `temperature_c` is null without a sensor, `calibration` is null without a calibration file.
 nlohmann::ordered_json to_json(const RigHealth& health);
 
-/// Pulses and their lateness in words; empty for a rig without trigger.
+/// Pulses and their lateness; empty for a rig without a trigger.
 std::string pulse_text(const RigSync& sync);
-/// Rates, temperature, supply and calibration in words.
+/// Rates, temperature, supply and calibration.
 std::string health_text(const RigHealth& health);
 
 }  // namespace vantage

@@ -19,7 +19,7 @@ WakeEvent::~WakeEvent() { ::close(fd_); }
 
 void WakeEvent::notify() const {
     const std::uint64_t one = 1;
-    // Full means that the thread has been told already.
+    // A full counter means that the thread has been woken already.
     [[maybe_unused]] const ssize_t written = ::write(fd_, &one, sizeof one);
 }
 

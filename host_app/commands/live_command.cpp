@@ -9,7 +9,7 @@
 #include "common/colour/colour_file.h"
 #include "host_app/commands/live_session.h"
 #include "host_app/session/options/common_options.h"
-#include "host_app/takes/stage_habits.h"
+#include "host_app/takes/take_show.h"
 
 namespace vantage {
 

@@ -11,7 +11,6 @@
 #include "host_app/session/options/common_options.h"
 #include "host_app/session/show_session.h"
 #include "host_app/sound/take_sound.h"
-#include "host_app/takes/stage_habits.h"
 #include "host_app/takes/take_frame_sets.h"
 #include "host_app/takes/take_show.h"
 

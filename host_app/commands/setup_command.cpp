@@ -14,7 +14,7 @@
 #include "common/base/cli/line_input.h"
 #include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
-#include "common/base/event_teller.h"
+#include "common/base/cli/print_result.h"
 #include "common/base/files/folder.h"
 #include "common/config/endpoint.h"
 #include "common/pairing/pairing_place.h"

@@ -10,17 +10,17 @@
 
 namespace vantage {
 
-/// Of a tick.
+/// The camera of a programme tick.
 CameraState camera_of(const CameraRecord& record);
 
-/// A camera in a FreeD message, as freed_camera() says it.
+/// The FreeD message of a tick's camera.
 std::array<std::byte, freed_bytes> freed_message(const CameraRecord& camera);
 
-/// A line of text a tick: time code, seconds since the first, position, turn as angles and as a
-/// quaternion of world_from_camera (OpenCV's axes), lens.
+/// Writes one line per tick: time code, seconds since the first tick, position, rotation as angles
+/// and as a quaternion of world_from_camera (OpenCV's axes), and lens.
 void write_camera_csv(const TakeReader& take, std::span<const CameraRecord> cameras,
                       const std::filesystem::path& file);
-/// The messages one after the other.
+/// Writes the FreeD messages of all ticks in sequence.
 void write_camera_freed(std::span<const CameraRecord> cameras, const std::filesystem::path& file);
 
 }  // namespace vantage

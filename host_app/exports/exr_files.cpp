@@ -1,5 +1,3 @@
-#include "host_app/exports/exr_files.h"
-
 #include <array>
 
 #include <ImfChannelList.h>
@@ -13,6 +11,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/colour/colour_correction.h"
+#include "host_app/exports/moment_files.h"
 
 namespace vantage {
 namespace {
@@ -25,7 +24,7 @@ std::array<half, 256> linear_light() {
     return table;
 }
 
-/// OpenEXR's vectors are rows; its camera looks along z, with y up.
+/// OpenEXR uses row vectors and a camera that looks along z with y up.
 Imath::M44f world_to_camera(const Pose& world_from_camera) {
     Eigen::Matrix4d camera_from_world = world_from_camera.inverse().matrix();
     camera_from_world.row(1) *= -1;
@@ -74,7 +73,7 @@ std::string exr_of(const MomentView& view) {
         pixels.insert("Z", Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(depth_m.data),
                                       sizeof(float), depth_m.step));
     }
-    // In memory, since what fails at a file's end is not told.
+    // Written to memory first, since OpenEXR does not report errors at a file's end.
     Imf::StdOSStream bytes;
     {
         Imf::OutputFile file(bytes, header);

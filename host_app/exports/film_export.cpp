@@ -8,17 +8,19 @@
 
 #include "common/base/cli/version.h"
 #include "common/base/error.h"
+#include "common/base/time/pulse_grid.h"
 #include "common/gl/context/egl_context.h"
 #include "common/gl/context/limits.h"
 #include "common/take/take_pulses.h"
 #include "host_app/exports/camera_files.h"
-#include "host_app/exports/export_claim.h"
 #include "host_app/exports/film_parts.h"
-#include "host_app/exports/film_sound.h"
+#include "host_app/exports/take_export.h"
 #include "host_app/foreground/motion/interpolated_frame_sets.h"
-#include "host_app/output/media/video_writer.h"
 #include "host_app/output/frame_set_timecode.h"
+#include "host_app/output/media/video_writer.h"
 #include "host_app/refine/gain_compensation.h"
+#include "host_app/sound/picture_sound.h"
+#include "host_app/sound/take_sound.h"
 #include "host_app/takes/take_frame_sets.h"
 #include "host_app/takes/take_show.h"
 #include "host_app/views/depth_views.h"
@@ -26,28 +28,28 @@
 namespace vantage {
 namespace {
 
-/// Of a take, from which the set is learnt before the first picture: performers walk about in it.
-/// So often a second.
+/// The part of a take before the first picture from which the background is learnt, and its frame
+/// sets per second. Performers move, so that the background behind them becomes visible.
 constexpr double learning_s = 20, learning_rate_hz = 5;
-/// Before the first picture, every instant: what is filtered along time needs some.
+/// Temporal filters see every frame set of this long before the first picture.
 constexpr double settling_s = 1;
-/// Of the time between two pulses: what is nearer to one is that pulse.
+/// A time nearer to a pulse than this share of the period is that pulse.
 constexpr double least_share = 0.01;
-/// Instants further apart have nothing to say to each other.
+/// Frame sets further apart are not used to interpolate or filter each other.
 constexpr double longest_gap_s = 1;
-/// x264's constant rate factor of a film that is worked on further.
+/// x264's constant rate factor for a film that will be edited.
 constexpr double film_quality = 16;
 constexpr std::size_t most_pictures = 10'000'000;
 
 std::size_t pictures_of(double duration_s, double rate_hz) {
     const double count = std::max(1.0, std::round(duration_s * rate_hz));
     if (count > most_pictures)
-        fail("a film of {:.0f} s at {:g} pictures a second has too many of them: {} are the most",
-             duration_s, rate_hz, most_pictures);
+        fail("a film of {:.0f} s at {:g} fps is too long: the limit is {} pictures", duration_s,
+             rate_hz, most_pictures);
     return static_cast<std::size_t>(count);
 }
 
-/// Instants of a take, in the order in which they are asked for.
+/// Prepares instants of a take in the order in which a film needs them.
 class FilmInstants {
   public:
     FilmInstants(std::shared_ptr<const TakeReader> take, const SynthesiserEntry& synthesiser,
@@ -57,7 +59,8 @@ class FilmInstants {
           sets_(std::move(take)),
           preparer_(synthesiser.make_preparer(shaders)) {}
 
-    /// A moment between two pulses is made of both, where they are next to each other.
+    /// Prepares the instant at `pulse`, interpolated between neighbouring pulses if it is between
+    /// them.
     void go_to(double pulse, const VirtualView& target) {
         const std::uint64_t there = *sets_.pulse_at(pulse);
         const double passed = pulse - static_cast<double>(there);
@@ -88,10 +91,10 @@ class FilmInstants {
     InterpolatedFrameSets between_;
     GainCompensation gain_compensation_;
     std::unique_ptr<InstantPreparer> preparer_;
-    std::optional<double> moment_;  ///< pulses
+    std::optional<double> moment_;  ///< time in pulses
 };
 
-/// What film it is: parts of another are not gone on with.
+/// Identifies the film, so that parts of another film are not resumed.
 nlohmann::ordered_json claim_of(const std::vector<FilmPicture>& pictures,
                                 const FilmSettings& settings) {
     std::string all;
@@ -117,7 +120,7 @@ nlohmann::ordered_json claim_of(const std::vector<FilmPicture>& pictures,
     return claim;
 }
 
-/// Renders the pictures of a film that are not there yet.
+/// Renders the missing parts of a film.
 class FilmWork {
   public:
     FilmWork(std::shared_ptr<const TakeReader> take, const std::vector<FilmPicture>& pictures,
@@ -137,7 +140,7 @@ class FilmWork {
     }
 
   private:
-    /// A context that can do what Vantage needs.
+    /// A GL context that meets Vantage's requirements.
     struct Gl {
         EglContext context;
         Gl() { GlInfo::query().require_vantage_minimum(); }
@@ -147,8 +150,8 @@ class FilmWork {
         return view_of(picture.camera, {settings_.format.width_px, settings_.format.height_px});
     }
 
-    /// The set, from before the picture at `begin` and, where that is little, from after it; then
-    /// what pictures before it show.
+    /// Learns the background from before the picture at `begin`, and if that is short, from after
+    /// it; then prepares the pictures just before it for temporal filters.
     void learn(std::uint64_t begin, const std::function<bool()>& is_wanted) {
         const PastFrameSets::Span span = *instants_.sets().span();
         const auto pulses_of = [this](double time_s) {
@@ -178,7 +181,7 @@ class FilmWork {
             instants_.go_to(pictures_[i].pulse, view(pictures_[i]));
     }
 
-    /// False: it is shorter than it might be, since it is not wanted any more.
+    /// Returns false if the part was cut short because `is_wanted` became false.
     bool render_part(FilmParts& parts, const std::function<bool()>& is_wanted,
                      const std::function<void(double)>& progress) {
         const std::uint64_t begin = parts.pictures();
@@ -223,12 +226,12 @@ std::vector<FilmPicture> film_of(const Move& move, const TakeReader& take, const
     const auto first = static_cast<double>(leads ? span.first : std::max(part.from, span.first));
     const auto last = static_cast<double>(std::min(part.to, span.last + 1));
     const double duration_s = leads ? move.duration_s() : (last - first) / pulse_rate_hz;
-    if (duration_s < 0) fail("{} has no frame in that part", take.path().string());
+    if (duration_s < 0) fail("{} has no frame in that range", take.path().string());
     std::vector<FilmPicture> pictures(pictures_of(duration_s, rate_hz));
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const double time_s = static_cast<double>(i) / rate_hz;
         pictures[i].camera = move.at(time_s).camera();
-        // A pulse's own time is its, whatever the last bit of a sum says.
+        // A time within rounding errors of a pulse is that pulse.
         constexpr double rounding = 1e-6;
         pictures[i].pulse =
             first + move.take_s_at(time_s).value_or(time_s) * pulse_rate_hz + rounding;
@@ -242,8 +245,9 @@ std::vector<FilmPicture> film_of_cameras(const TakeReader& take, const TakePart&
     for (const CameraRecord& camera : take.cameras())
         if (camera.pulse >= part.from && camera.pulse < part.to) ticks.push_back(camera);
     if (ticks.empty())
-        fail("{} has no camera in that part; say which flight with --path", take.path().string());
-    // Ticks are even; when they were handed out is not.
+        fail("{} has no recorded camera in that range; give a flight with --path",
+             take.path().string());
+    // Ticks are evenly spaced, although their recorded times are not.
     const double span_s =
         std::chrono::duration<double>(ticks.back().time - ticks.front().time).count();
     const auto steps = static_cast<double>(ticks.size() - 1);
@@ -269,7 +273,7 @@ ExportStats export_film(std::shared_ptr<const TakeReader> take,
                         const std::filesystem::path& file, const std::function<bool()>& is_wanted,
                         const std::function<void(double)>& progress) {
     if (std::filesystem::exists(file))
-        fail("{} is there already: give the film another name", file.string());
+        fail("{} exists: choose another name for the film", file.string());
     const SynthesiserEntry synthesiser = find_synthesiser(settings.synthesiser);
     require_film_name(file);
     const std::filesystem::path folder = FilmParts::folder_of(file);
@@ -287,6 +291,61 @@ ExportStats export_film(std::shared_ptr<const TakeReader> take,
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
     return stats;
+}
+
+namespace {
+
+/// Whether pictures around one advance by as many pulses as at normal speed.
+bool is_at_normal_speed(const std::vector<FilmPicture>& pictures, std::size_t at,
+                        std::size_t around, double pulses_a_picture) {
+    const std::size_t first = at - std::min(at, around);
+    const std::size_t last = std::min(at + around, pictures.size() - 1);
+    const double due = pulses_a_picture * static_cast<double>(last - first);
+    // A picture shows the newest pulse, so either end may be off by one.
+    return std::abs(pictures[last].pulse - pictures[first].pulse - due) <=
+           std::max(1.01, 0.05 * due);
+}
+
+}  // namespace
+
+std::vector<std::optional<TaiTime>> even_times(const std::vector<FilmPicture>& pictures,
+                                               double rate_hz, double pulse_rate_hz) {
+    const double pulses_a_picture = pulse_rate_hz / rate_hz;
+    const auto around =
+        static_cast<std::size_t>(std::ceil(std::max(rate_hz / 2, 3 / pulses_a_picture)));
+    const PulseGrid pulses(pulse_rate_hz);
+    std::vector<std::optional<TaiTime>> times(pictures.size());
+    for (std::size_t begin = 0; begin < pictures.size();) {
+        std::size_t end = begin;
+        // The smallest delay of the run's first picture behind its pulse.
+        double first = pictures[begin].pulse;
+        while (end < pictures.size() &&
+               is_at_normal_speed(pictures, end, around, pulses_a_picture)) {
+            first = std::max(
+                first, pictures[end].pulse - pulses_a_picture * static_cast<double>(end - begin));
+            ++end;
+        }
+        const double whole = std::floor(first);
+        const TaiTime start = pulses.time_of(static_cast<std::uint64_t>(whole)) +
+                              from_s((first - whole) / pulse_rate_hz);
+        for (std::size_t i = begin; i < end; ++i)
+            times[i] = start + from_s(static_cast<double>(i - begin) / rate_hz);
+        begin = std::max(end, begin + 1);
+    }
+    return times;
+}
+
+std::vector<std::shared_ptr<const SoundBlock>> sound_of_film(
+    const std::shared_ptr<const TakeReader>& take, const std::vector<FilmPicture>& pictures,
+    double rate_hz) {
+    std::vector<std::shared_ptr<const SoundBlock>> blocks;
+    if (!take->facts().has_sound) return blocks;
+    PictureSound sound({.rate_hz = rate_hz, .delay = std::chrono::nanoseconds(0), .tap = {}},
+                       open_patient_take_sound(take));
+    for (const std::optional<TaiTime>& time :
+         even_times(pictures, rate_hz, take->facts().pulse_rate_hz))
+        blocks.push_back(sound.next({TaiTime(), time}));
+    return blocks;
 }
 
 }  // namespace vantage

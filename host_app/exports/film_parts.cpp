@@ -17,7 +17,7 @@
 namespace vantage {
 namespace {
 
-/// The pictures of a part, coded, in the order of decoding.
+/// Reads the encoded pictures of a part in decoding order.
 class PartReader {
   public:
     explicit PartReader(const std::filesystem::path& file) : file_(file) {
@@ -33,7 +33,7 @@ class PartReader {
 
     const AVCodecParameters& pictures() const { return *stream_->codecpar; }
 
-    /// Packets whose time is the number of their picture in the part.
+    /// Packets with the number of their picture in the part as time.
     std::vector<AvPacketPtr> packets(AVRational tick) {
         std::vector<AvPacketPtr> packets;
         for (;;) {
@@ -64,8 +64,7 @@ class PartReader {
 
   private:
     [[noreturn]] void refuse(int code) const {
-        fail("{} is no part of a film that could be gone on with ({}): take it away",
-             file_.string(), av_reason(code));
+        fail("{} cannot be resumed ({}): delete it", file_.string(), av_reason(code));
     }
 
     std::filesystem::path file_;
@@ -84,7 +83,7 @@ AVRational tick_of(double rate_hz) {
     return tick;
 }
 
-/// Of an export that was killed.
+/// Deletes the temporary files of an export that was killed.
 void remove_unfinished(const std::filesystem::path& folder) {
     std::error_code ignored;
     for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
@@ -105,13 +104,13 @@ FilmParts::FilmParts(std::filesystem::path folder, double rate_hz)
       lock_(::open((folder_ / "export.json").c_str(), O_RDONLY | O_CLOEXEC)) {
     if (!lock_) fail("cannot read {}: {}", folder_.string(), std::strerror(errno));
     if (::flock(lock_.get(), LOCK_EX | LOCK_NB) != 0)
-        fail("another export is writing to {}: let it end", folder_.string());
+        fail("another export is writing to {}: wait until it has ended", folder_.string());
     remove_unfinished(folder_);
     while (std::filesystem::exists(next())) take_in(next());
 }
 
 std::filesystem::path FilmParts::next() const {
-    // MP4, since it keeps times exactly.
+    // MP4 stores times exactly.
     return folder_ / fmt::format("{:08}.mp4", pictures_);
 }
 
@@ -128,7 +127,7 @@ void FilmParts::take_in(std::filesystem::path file) {
 void FilmParts::add(std::uint64_t pictures) {
     take_in(next());
     if (parts_.back().pictures != pictures)
-        fail("{} has {} pictures, and {} were written", parts_.back().file.string(),
+        fail("{} has {} pictures instead of {}", parts_.back().file.string(),
              parts_.back().pictures, pictures);
 }
 
@@ -153,7 +152,7 @@ void FilmParts::join(const std::filesystem::path& film, const std::string& timec
     for (const Part& part : parts_) {
         PartReader reader(part.file);
         if (!std::ranges::equal(head_of(head.pictures()), head_of(reader.pictures())))
-            fail("{} was encoded by another encoder than the parts before it: take {} away",
+            fail("{} was made by another encoder than the parts before it: delete {}",
                  part.file.string(), folder_.string());
         auto number = static_cast<std::int64_t>(part.first);
         for (const AvPacketPtr& packet : reader.packets(tick_)) {

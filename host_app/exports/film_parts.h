@@ -12,28 +12,28 @@
 
 namespace vantage {
 
-/// A film on its way: parts of it in a folder, each a whole film of the pictures from a number on,
-/// made with the same settings. A part is there when it is whole; all of them are joined into the
-/// film without coding anything anew. Held by one process at a time.
+/// The finished parts of a film in a folder. Each is a complete film of consecutive pictures with
+/// the same encoder settings, so that they are joined without re-encoding. Locked by one process at
+/// a time. Not thread-safe.
 class FilmParts {
   public:
-    /// The folder of the parts of a film of this name: NAME.parts.
+    /// The folder for the parts of a film: NAME.parts.
     static std::filesystem::path folder_of(const std::filesystem::path& film);
 
-    /// The folder is there, with export.json in it. Throws Error if another process holds it, or a
-    /// part in it cannot be read.
+    /// Precondition: the folder exists and contains export.json. Throws Error if another process
+    /// has locked it, or a part cannot be read.
     FilmParts(std::filesystem::path folder, double rate_hz);
 
-    /// Pictures that are there, from the first on without a gap.
+    /// Number of finished pictures, without a gap from the first.
     std::uint64_t pictures() const { return pictures_; }
-    /// The file of the part that comes next.
+    /// The file of the next part.
     std::filesystem::path next() const;
-    /// That part is written. Throws Error if it has not so many pictures.
+    /// Adds the next part after it was written. Throws Error if its picture count is wrong.
     void add(std::uint64_t pictures);
 
-    /// Joins them into the film, which begins at this time code. Precondition: there is one. Throws
-    /// Error if the disk fails, or parts do not fit each other. `sound`: of every picture; empty:
-    /// none.
+    /// Joins the parts into the film, which begins at this time code. `sound`: one block per
+    /// picture; empty: no sound. Precondition: there is a part. Throws Error if the disk fails or
+    /// parts differ in encoding.
     void join(const std::filesystem::path& film, const std::string& timecode,
               const std::vector<std::shared_ptr<const SoundBlock>>& sound = {}) const;
 
@@ -41,13 +41,13 @@ class FilmParts {
     struct Part {
         std::filesystem::path file;
         std::uint64_t first = 0, pictures = 0;
-        std::int64_t delay = 0;  ///< pictures that its decoder has to wait for others at most
+        std::int64_t delay = 0;  ///< largest decoding delay in pictures
     };
     void take_in(std::filesystem::path file);
 
     std::filesystem::path folder_;
     double rate_hz_;
-    AVRational tick_;  ///< s a picture
+    AVRational tick_;  ///< seconds per picture
     UniqueFd lock_;
     std::vector<Part> parts_;
     std::uint64_t pictures_ = 0;

@@ -11,11 +11,12 @@
 namespace vantage {
 namespace {
 
-/// Neighbouring pixels whose depths are further apart than this, of the nearer one, are of two
-/// surfaces: a surface of one would be steeper than 80 degrees, at a rig's usual field of view.
+/// Neighbouring pixels belong to one surface if their depths differ by less than this share of the
+/// nearer one. A larger step within one surface would be steeper than 80 degrees at a rig's usual
+/// field of view.
 constexpr float one_surface_share = 0.03f;
 
-/// A view without disparity has an empty map.
+/// The depth of a frame; empty if it has no disparity.
 DepthImage depth_of(const RigFrame& frame) {
     const DepthView view = depth_view_of(frame);
     DepthImage depth(view.depth_size());

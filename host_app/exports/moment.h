@@ -16,45 +16,45 @@
 
 namespace vantage {
 
-/// What one rig saw.
+/// The view of one rig at a moment.
 struct MomentView {
     std::string rig;
-    ColourImage colour;  ///< in the stage's colours
-    /// As it came, where the rig's colours are the stage's; else empty.
+    ColourImage colour;  ///< corrected to the stage's colours
+    /// The JPEG as it came, if the rig has no colour correction; otherwise empty.
     std::vector<std::byte> jpeg;
-    DepthImage depth_m;  ///< of the same field of view, may be smaller; 0: unknown
-    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< of the colour picture, px
+    DepthImage depth_m;  ///< with the same field of view, may be smaller; 0: unknown
+    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();  ///< of the colour image, px
     Pose world_from_camera = Pose::Identity();
 
-    /// K of the depth map.
+    /// K for the size of the depth map.
     Eigen::Matrix3d depth_K() const;
-    /// The depth map in as many pixels as the colour picture has; empty as it is.
+    /// The depth map scaled to the size of the colour image; empty if there is none.
     DepthImage depth_of_pixels() const;
 };
 
-/// What all rigs saw at one pulse, for other programs.
+/// The views of all rigs at one pulse, for exports.
 struct Moment {
     std::uint64_t pulse = 0;
     double pulse_rate_hz = 30;
     std::vector<MomentView> views;
-    std::uint64_t damaged = 0;  ///< rigs whose frame is not what was written
+    std::uint64_t damaged = 0;  ///< number of rigs whose frame is damaged
 };
 
-/// A point of a surface that a rig saw.
+/// A point of a visible surface.
 struct SurfacePoint {
-    Eigen::Vector3f position_m;  ///< in the stage
+    Eigen::Vector3f position_m;  ///< in the stage's world frame
     cv::Vec3b rgb;
 };
-/// Of every `step`th pixel either way that has a depth.
+/// The points of every `step`-th pixel in x and y with a known depth.
 std::vector<SurfacePoint> surface_points(const Moment& moment, int step);
-/// Triangles between them, step 1, by their numbers: of neighbours in a rig's picture that are on
-/// one surface. Counterclockwise as the rig sees them.
+/// Triangles between neighbouring pixels of one surface, as indices of the points of step 1.
+/// Counterclockwise as seen from the rig.
 std::vector<std::array<std::uint32_t, 3>> surface_triangles(const Moment& moment);
 
-/// Gives moments of a take. Not thread-safe.
+/// Loads moments of a take. Not thread-safe.
 class MomentReader {
   public:
-    /// `take` must outlive this. Throws Error if the take's head is damaged.
+    /// `take` must outlive this object. Throws Error if the take's head is damaged.
     explicit MomentReader(const TakeReader& take);
 
     Moment at(std::uint64_t pulse);

@@ -1,5 +1,3 @@
-#include "host_app/exports/moment_folders.h"
-
 #include <cmath>
 #include <limits>
 #include <string>
@@ -11,13 +9,13 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/image/image_file.h"
-#include "host_app/exports/point_files.h"
+#include "host_app/exports/moment_files.h"
 #include "host_app/view_sets/view_set_writer.h"
 
 namespace vantage {
 namespace {
 
-/// Beside `stem`; the JPEG as it came where there is one.
+/// Writes the image beside `stem`: the received JPEG if there is one, otherwise a PNG.
 std::filesystem::path write_picture(const MomentView& view, std::filesystem::path stem) {
     stem += view.jpeg.empty() ? ".png" : ".jpg";
     if (view.jpeg.empty())
@@ -27,7 +25,7 @@ std::filesystem::path write_picture(const MomentView& view, std::filesystem::pat
     return stem;
 }
 
-/// Millimetres, in as many pixels as the colour picture has.
+/// Depth in millimetres at the size of the colour image.
 cv::Mat1w depth_mm(const MomentView& view) {
     const DepthImage depth_m = view.depth_of_pixels();
     cv::Mat1w depth(depth_m.size(), std::uint16_t{0});
@@ -43,7 +41,7 @@ constexpr double half_px = 0.5;
 
 nlohmann::ordered_json transform_of(const MomentView& view, const std::string& picture) {
     Eigen::Matrix4d pose = view.world_from_camera.matrix();
-    // y up and z backward.
+    // OpenGL's camera axes: y up and z backward.
     pose.col(1) *= -1;
     pose.col(2) *= -1;
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -87,12 +85,12 @@ void write_training_folder(const Moment& moment, const std::filesystem::path& fo
         const Pose camera_from_world = view.world_from_camera.inverse();
         const Eigen::Quaterniond q(camera_from_world.linear());
         const Eigen::Vector3d t = camera_from_world.translation();
-        // The line of its features is empty.
+        // The second line of an image lists its features, and is empty.
         images +=
             fmt::format("{} {:.12g} {:.12g} {:.12g} {:.12g} {:.9g} {:.9g} {:.9g} {} {}\n\n", number,
                         q.w(), q.x(), q.y(), q.z(), t.x(), t.y(), t.z(), number, picture);
     }
-    // To begin from: some ten thousands are enough.
+    // Initial points for training: some ten thousand suffice.
     constexpr int step = 4;
     const std::vector<SurfacePoint> surface = surface_points(moment, step);
     std::size_t point = 0;
@@ -116,7 +114,7 @@ void write_view_set(const Moment& moment, const std::filesystem::path& folder) {
         std::filesystem::remove(picture, ignored);
         if (view.depth_m.empty()) continue;
         DepthImage depth = view.depth_m.clone();
-        // In PFM what is unknown is not finite.
+        // PFM marks unknown depth by a value that is not finite.
         depth.setTo(std::numeric_limits<float>::infinity(), depth <= 0);
         writer.add_depth(depth);
     }

@@ -1,5 +1,3 @@
-#include "host_app/exports/mpeg_views.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +10,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "host_app/camera_paths/omaf_camera.h"
+#include "host_app/exports/moment_files.h"
 #include "host_app/output/media/picture_converter.h"
 
 namespace vantage {
@@ -24,7 +23,7 @@ struct DepthRange {
     double nearest_m = std::numeric_limits<double>::infinity(), farthest_m = 0;
 };
 
-/// Of all rigs, so that what they see can be compared; whole decimetres around it.
+/// The depth range over all rigs, so that their codes are comparable, widened to decimetres.
 DepthRange depth_range(const Moment& moment) {
     DepthRange range;
     for (const MomentView& view : moment.views)
@@ -69,7 +68,7 @@ std::string depth_of(const DepthImage& depth_m, cv::Size size, const DepthRange&
     std::string bytes;
     append_rows(bytes, codes.data, static_cast<std::ptrdiff_t>(codes.step),
                 static_cast<std::size_t>(size.width) * sizeof(std::uint16_t), size.height);
-    // What grey is in 4:2:0.
+    // Neutral chroma in 4:2:0.
     const std::u16string no_colour(static_cast<std::size_t>(size.area() / 2), u'\x8000');
     bytes.append(reinterpret_cast<const char*>(no_colour.data()),
                  no_colour.size() * sizeof(char16_t));

@@ -1,5 +1,3 @@
-#include "host_app/exports/point_files.h"
-
 #include <array>
 #include <bit>
 #include <cmath>
@@ -10,11 +8,12 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/colour/colour_correction.h"
+#include "host_app/exports/moment_files.h"
 
 namespace vantage {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "what is written is little-endian");
+static_assert(std::endian::native == std::endian::little, "the files are little-endian");
 
 void append(std::string& bytes, const void* from, std::size_t count) {
     bytes.append(static_cast<const char*>(from), count);
@@ -63,7 +62,7 @@ void write_glb(const Moment& moment, const std::filesystem::path& file) {
     Eigen::Vector3f least = points.front().position_m, most = least;
     for (const SurfacePoint& point : points) {
         append(positions, point.position_m.data(), 3 * sizeof(float));
-        // A colour of glTF's is linear light, and every element begins at a multiple of four bytes.
+        // glTF's vertex colours are linear light, and each element is aligned to four bytes.
         for (int i = 0; i < 3; ++i) {
             constexpr double most_8_bit = 255, most_16_bit = 65535;
             const auto linear = static_cast<std::uint16_t>(

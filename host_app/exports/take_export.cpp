@@ -3,32 +3,31 @@
 #include <algorithm>
 #include <array>
 #include <set>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 #include "common/take/take_pulses.h"
 #include "host_app/exports/camera_files.h"
-#include "host_app/exports/export_claim.h"
-#include "host_app/exports/exr_files.h"
 #include "host_app/exports/moment.h"
-#include "host_app/exports/moment_folders.h"
-#include "host_app/exports/mpeg_views.h"
-#include "host_app/exports/point_files.h"
+#include "host_app/exports/moment_files.h"
 
 namespace vantage {
 namespace {
 
 constexpr std::array<ExportFormat, 6> formats{{
-    {"ply", "coloured points and surfaces, a PLY file a moment", ".ply", write_ply},
-    {"glb", "coloured surfaces, a glTF file a moment", ".glb", write_glb},
-    {"exr", "colour as linear light and depth, a folder of OpenEXR files a moment", "",
+    {"ply", "coloured points and surfaces, a PLY file per moment", ".ply", write_ply},
+    {"glb", "coloured surfaces, a glTF file per moment", ".glb", write_glb},
+    {"exr", "colour as linear light and depth, a folder of OpenEXR files per moment", "",
      write_exr_folder},
-    {"training", "pictures, depth, transforms.json and a COLMAP model, a folder a moment", "",
+    {"training", "images, depth, transforms.json and a COLMAP model, a folder per moment", "",
      write_training_folder},
-    {"views", "a view set for vantage render, a folder a moment", "", write_view_set},
-    {"mpeg", "an MPEG view set (TMIV, RVS), a folder a moment", "", write_mpeg_views},
+    {"views", "a view set for vantage render, a folder per moment", "", write_view_set},
+    {"mpeg", "an MPEG view set (TMIV, RVS), a folder per moment", "", write_mpeg_views},
 }};
 
 std::vector<std::uint64_t> pulses_of(const TakeReader& take, const TakePart& part) {
@@ -52,14 +51,14 @@ const ExportFormat& find_export_format(const std::string& name) {
         if (format.name == name) return format;
         names += std::string(", ") + format.name;
     }
-    fail("a take is not exported as '{}'; there are camera, film{}", name, names);
+    fail("a take cannot be exported as '{}'; the formats are camera, film{}", name, names);
 }
 
 ExportStats export_moments(const TakeReader& take, const ExportFormat& format, const TakePart& part,
                            const std::filesystem::path& folder,
                            const std::function<void(double)>& progress) {
     const std::vector<std::uint64_t> pulses = pulses_of(take, part);
-    if (pulses.empty()) fail("{} is not written: no frame is in that part", folder.string());
+    if (pulses.empty()) fail("{} is not written: the range has no frames", folder.string());
     claim_folder(folder, take, format.name);
     const std::uint64_t first = pulse_span_of(take).first;
     MomentReader reader(take);
@@ -92,11 +91,48 @@ ExportStats export_camera(const TakeReader& take, const TakePart& part,
     for (const CameraRecord& camera : take.cameras())
         if (camera.pulse >= part.from && camera.pulse < part.to && ticks++ % part.every == 0)
             cameras.push_back(camera);
-    if (cameras.empty()) fail("{} has no camera in that part", take.path().string());
+    if (cameras.empty()) fail("{} has no recorded camera in that range", take.path().string());
     claim_folder(folder, take, "camera");
     write_camera_csv(take, cameras, folder / "camera.csv");
     write_camera_freed(cameras, folder / "camera.freed");
     return {cameras.size(), 0, 0};
+}
+
+namespace {
+
+constexpr const char* name = "export.json";
+
+bool holds_others(const std::filesystem::path& folder) {
+    const std::filesystem::directory_iterator files(folder);
+    return std::any_of(begin(files), end(files), [](const auto& entry) {
+        return !entry.path().filename().string().starts_with(name);
+    });
+}
+
+}  // namespace
+
+void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
+                  const nlohmann::ordered_json& what) {
+    make_folder(folder);
+    const nlohmann::ordered_json claim{
+        {"version", 1},
+        {"origin_tai_ns", take.facts().origin.time_since_epoch().count()},
+        {"program", take.facts().program},
+        {"bytes", take.bytes()},
+        {"as", what}};
+    const std::string text = claim.dump(1) + '\n';
+    const std::filesystem::path file = folder / name;
+    // Several processes may begin parts of one export at a time. If another one has created
+    // export.json since the first check, its files are not foreign.
+    if (!std::filesystem::exists(file) && holds_others(folder) && !std::filesystem::exists(file))
+        fail("{} contains other files: choose a new name", folder.string());
+    if (!std::filesystem::exists(file)) write_text_atomically(file, text);
+    constexpr std::size_t most_bytes = 1 << 16;
+    if (read_text_file(file, most_bytes) != text)
+        fail(
+            "{} contains another export, of another take or format: choose a new name, or delete "
+            "it",
+            folder.string());
 }
 
 }  // namespace vantage

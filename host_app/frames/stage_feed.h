@@ -27,7 +27,7 @@ inline StageFeed feed_of(StageReceiver& receiver) {
         [&receiver] { return receiver.status(); },
         [&receiver](const std::string& rig, bool streaming) { receiver.ask(rig, streaming, 1); },
         [&receiver](const std::string& rig, bool is_looked_at) {
-            receiver.look_at(rig, is_looked_at);
+            receiver.set_decoded(rig, is_looked_at);
         }};
 }
 

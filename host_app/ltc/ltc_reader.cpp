@@ -10,14 +10,14 @@
 namespace vantage {
 namespace {
 
-/// A frame of the slowest rate and a bit, by which libltc begins to look for bits.
+/// Initial length of a frame for libltc: slightly longer than at the lowest rate.
 constexpr int first_guess_samples = sound_rate_hz / 25;
 constexpr int queue_frames = 32;
-/// Tapes and generators wander; 24 to 30 a second with a tenth on either side.
+/// Accepted rates: 24 to 30 per second with a tenth on either side, since tapes drift.
 constexpr double least_rate_hz = 21.5, most_rate_hz = 33;
 
 std::optional<LtcReading> reading_of(const LTCFrameExt& frame) {
-    // Bits that are no decimal digits are no code.
+    // Values beyond a decimal digit are not a code.
     const LTCFrame& bits = frame.ltc;
     const unsigned digits[] = {bits.frame_units, bits.secs_units, bits.mins_units,
                                bits.hours_units};
@@ -43,7 +43,7 @@ std::optional<LtcReading> reading_of(const LTCFrameExt& frame) {
 void LtcReader::Deleter::operator()(LTCDecoder* decoder) const { ltc_decoder_free(decoder); }
 
 LtcReader::LtcReader() : decoder_(ltc_decoder_create(first_guess_samples, queue_frames)) {
-    if (!decoder_) fail("linear time code cannot be read: memory is short");
+    if (!decoder_) fail("cannot read linear time code: out of memory");
 }
 
 std::vector<LtcReading> LtcReader::hear(const SoundBlock& sound) {
@@ -52,7 +52,7 @@ std::vector<LtcReading> LtcReader::hear(const SoundBlock& sound) {
         left.push_back(std::isfinite(sound.samples[i]) ? std::clamp(sound.samples[i], -1.0F, 1.0F)
                                                        : 0.0F);
     std::vector<LtcReading> readings;
-    // libltc takes a thousand at a time and keeps so many frames.
+    // libltc accepts a thousand samples at a time and queues a limited number of frames.
     constexpr std::size_t at_once = 1024;
     for (std::size_t at = 0; at < left.size(); at += at_once) {
         ltc_decoder_write_float(decoder_.get(), left.data() + at,

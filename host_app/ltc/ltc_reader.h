@@ -11,20 +11,21 @@ struct LTCDecoder;
 
 namespace vantage {
 
-/// A frame of linear time code that was heard.
+/// A decoded frame of linear time code.
 struct LtcReading {
     SmpteCode code;
     std::int64_t first = 0;      ///< sample at which it begins
-    double frames_a_second = 0;  ///< by its length
+    double frames_a_second = 0;  ///< measured from its length
 };
 
-/// Finds linear time code in sound, by libltc. A code is believed where it follows the one before
-/// it; what is none, or jumps, is counted.
+/// Decodes linear time code in sound, by libltc. A code is accepted if it follows the previous one;
+/// invalid codes and jumps are counted. Not thread-safe.
 class LtcReader {
   public:
     LtcReader();
 
-    /// What ended in this block, which begins where the last one ended or later.
+    /// Returns the codes that ended in this block, which starts at or after the end of the last
+    /// one.
     std::vector<LtcReading> hear(const SoundBlock& sound);
 
     std::uint64_t malformed() const { return malformed_; }
@@ -34,11 +35,11 @@ class LtcReader {
         void operator()(LTCDecoder* decoder) const;
     };
     std::unique_ptr<LTCDecoder, Deleter> decoder_;
-    std::optional<LtcReading> last_;  ///< that was well formed
+    std::optional<LtcReading> last_;  ///< last valid one
     std::uint64_t malformed_ = 0;
 };
 
-/// What code of this rate counts: 24, 25 or 30 numbers a second.
+/// The count of a code's rate: 24, 25 or 30 per second.
 SmpteCount count_of(const LtcReading& reading);
 
 }  // namespace vantage

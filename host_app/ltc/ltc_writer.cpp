@@ -1,5 +1,7 @@
 #include "host_app/ltc/ltc_writer.h"
 
+#include <cstdlib>
+
 #include <ltc.h>
 
 #include "common/av/sound.h"
@@ -10,11 +12,11 @@ namespace vantage {
 void LtcWriter::Deleter::operator()(LTCEncoder* encoder) const { ltc_encoder_free(encoder); }
 
 LtcWriter::LtcWriter(double rate_hz)
-    // libltc takes 29.97 for drop-frame code by its number.
+    // libltc selects drop-frame code by the rate 29.97.
     : encoder_(
           ltc_encoder_create(sound_rate_hz, rate_hz > 29 && rate_hz < 30 ? 30000.0 / 1001 : rate_hz,
                              rate_hz > 24.5 && rate_hz < 25.5 ? LTC_TV_625_50 : LTC_TV_525_60, 0)) {
-    if (!encoder_) fail("linear time code cannot be made: memory is short");
+    if (!encoder_) fail("cannot generate linear time code: out of memory");
     constexpr double level_dbfs = -12;
     ltc_encoder_set_volume(encoder_.get(), level_dbfs);
 }
@@ -34,6 +36,22 @@ std::vector<float> LtcWriter::frame(const SmpteCode& code) {
     for (int i = 0; i < count; ++i)
         samples.push_back((static_cast<float>(bytes[i]) - middle) / middle);
     return samples;
+}
+
+std::optional<SmpteCode> LtcFlywheel::next(const std::optional<SmpteCode>& picture) {
+    const std::optional<std::int64_t> shown = picture ? count_.frame_of(*picture) : std::nullopt;
+    if (shown) {
+        stood_ = shown == last_picture_ ? stood_ + 1 : 0;
+        last_picture_ = shown;
+        const std::int64_t second = count_.numbers_a_second;
+        const bool is_elsewhere = next_ && std::abs(count_.between(*shown, *next_)) > second / 4;
+        if (!next_ || is_elsewhere || stood_ >= second) {
+            jumps_ += is_elsewhere && stood_ < second;
+            next_ = shown;
+        }
+    }
+    if (!next_) return std::nullopt;
+    return count_.code_of((*next_)++);
 }
 
 }  // namespace vantage

@@ -25,7 +25,7 @@ std::string SmpteCode::text() const {
                        is_drop_frame ? ';' : ':', frame);
 }
 
-/// Numbers that a minute lacks: 2 of 30, 4 of 60.
+/// Numbers that drop-frame code skips per minute: 2 of 30, 4 of 60.
 static std::int64_t dropped_of(const SmpteCount& count) {
     return count.is_drop_frame ? count.numbers_a_second / 15 : 0;
 }

@@ -48,7 +48,7 @@ void MetricsServer::Stop::operator()(MHD_Daemon* daemon) const { MHD_stop_daemon
 MetricsServer::MetricsServer(const std::string& text)
     : text_(std::make_shared<const std::string>("# EOF\n")) {
     const OutputUrl url = OutputUrl::parse(text, "metrics");
-    if (url.scheme != "http") fail("the metrics {} are at no http://HOST:PORT", url.shown);
+    if (url.scheme != "http") fail("the metrics address {} is not http://HOST:PORT", url.shown);
     const NetworkPlace place = listening_place_of(url);
     url.require_options_of({"open"});
     const SocketAddress address = resolve(place, "metrics " + url.shown);
@@ -59,8 +59,10 @@ MetricsServer::MetricsServer(const std::string& text)
         MHD_OPTION_CONNECTION_LIMIT, most_peers, MHD_OPTION_CONNECTION_TIMEOUT, patience_s,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, bytes_a_peer, MHD_OPTION_END));
     if (!daemon_)
-        fail("metrics {}: cannot listen on port {} ({}); choose another, or end what has it",
-             url.shown, place.port, std::strerror(errno));
+        fail(
+            "metrics {}: cannot listen on port {} ({}); choose another, or end the program using "
+            "it",
+            url.shown, place.port, std::strerror(errno));
 }
 
 MetricsServer::~MetricsServer() = default;

@@ -8,12 +8,12 @@ struct MHD_Daemon;
 
 namespace vantage {
 
-/// Tells whoever asks over HTTP (GET /metrics) what it was shown last, on a thread of its own. At
-/// most eight ask at a time, and one that says nothing for ten seconds is let go.
+/// Serves the last text that it was given over HTTP (GET /metrics), on a thread of its own. Accepts
+/// at most eight connections at a time, and closes one that is silent for ten seconds. Thread-safe.
 class MetricsServer {
   public:
     /// `url`: "http://HOST:PORT"; without a host at 127.0.0.1, beyond this computer with
-    /// "?open=yes" only. Throws Error for a place that is taken or not allowed.
+    /// "?open=yes" only. Throws Error for an address that is in use or not allowed.
     explicit MetricsServer(const std::string& url);
     ~MetricsServer();
     MetricsServer(const MetricsServer&) = delete;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/base/cli/version.h"
-#include "host_app/metrics/metric_text.h"
 
 namespace vantage {
 namespace {
@@ -16,19 +15,19 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(1, {{"version", version()},
                     {"synthesiser", report.synthesiser},
                     {"renderer", report.renderer}});
-    text.gauge("rate_hz", "Pictures a second that are asked for.");
+    text.gauge("rate_hz", "Configured picture rate.");
     text.sample(report.rate_hz);
     text.counter("ticks", "Ticks of the programme since its first picture.");
     text.sample(number(programme.ticks));
     text.counter("new_pictures", "Ticks with a new picture.");
     text.sample(number(programme.pictures));
     text.counter("reprojected_ticks",
-                 "Ticks whose new picture was not ready: the last one, reprojected.");
+                 "Ticks without a new picture, which showed the last one reprojected.");
     text.sample(number(programme.reprojected));
     text.counter("repeated_ticks",
-                 "Ticks whose new picture was not ready: the last one as it was.");
+                 "Ticks without a new picture, which showed the last one unchanged.");
     text.sample(number(programme.repeated));
-    text.counter("missed_ticks", "Ticks that passed before the programme came to them.");
+    text.counter("missed_ticks", "Ticks that passed before the programme reached them.");
     text.sample(number(programme.missed));
     text.counter("replaced_pictures",
                  "Pictures replaced by a newer one before a tick showed them.");
@@ -37,16 +36,16 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(number(programme.replaced));                                  // old name
     text.gauge("live", "1 while the programme shows what happens now.");
     text.sample(report.signal == SignalState::live ? 1 : 0);
-    text.gauge("quality_share_ratio", "Of the time, at each level of quality; 0 is the best.");
+    text.gauge("quality_share_ratio", "Share of time at each quality level; 0 is the best.");
     for (const auto& [work, shares] :
          {std::pair("render", &programme.render_shares), {"prepare", &programme.prepare_shares}})
         for (std::size_t level = 0; level < shares->size(); ++level)
             text.sample((*shares)[level], {{"work", work}, {"level", std::to_string(level)}});
-    text.summary("tick_lateness_seconds", "From a tick to the hand-over of its picture.");
+    text.summary("tick_lateness_seconds", "From a tick to the output of its picture.");
     text.percentiles(programme.late_ms);
     text.summary("picture_interval_seconds", "Between two new pictures.");
     text.percentiles(programme.interval_ms);
-    text.summary("exposure_to_picture_seconds", "From exposure to the hand-over of its picture.");
+    text.summary("exposure_to_picture_seconds", "From an exposure to the output of its picture.");
     text.percentiles(programme.latency_ms);
     text.summary("input_to_picture_seconds", "From operator input to the first picture with it.");
     text.percentiles(programme.input_ms);
@@ -63,20 +62,20 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.summary("step_seconds", "Steps of a frame's way, of rigs the worst one's.");
     for (const StepTime& step : step_times(report))
         text.percentiles(step.ms, {{"step", step.name}});
-    text.counter("faults", "Renderers and preparers that were made anew.");
+    text.counter("faults", "Renderers and preparers that were recreated.");
     text.sample(report.faults);
-    text.counter("gpu_resets", "Resets of the GPU that were got over.");
+    text.counter("gpu_resets", "GPU resets with recovery.");
     text.sample(report.contexts_lost);
     if (!report.corridor.now) return;
-    text.gauge("coverage_ratio", "Of the picture, that the rigs cover.");
+    text.gauge("coverage_ratio", "Share of the picture that the rigs cover.");
     text.sample(report.corridor.now->share);
 }
 
 void write_frame_sets(const LiveReport& report, MetricText& text) {
-    text.counter("frame_sets", "Sets of frames that were closed, whole or not.");
+    text.counter("frame_sets", "Closed frame sets, complete or not.");
     text.sample(number(report.frame_sets_complete), {{"rigs", "all"}});
     text.sample(number(report.frame_sets_closed - report.frame_sets_complete), {{"rigs", "some"}});
-    text.counter("instants", "Instants that were prepared, of sets or between two pulses.");
+    text.counter("instants", "Prepared instants, from frame sets or interpolated between two.");
     text.sample(number(report.instants_prepared), {{"of", "set"}});
     text.sample(number(report.instants_between), {{"of", "between"}});
     text.counter("frame_sets_left_out", "Frame sets that no instant was prepared from.");
@@ -108,23 +107,25 @@ void write_rigs(const LiveReport& report, MetricText& text) {
     text.counter("rig_outages", "Times that the rig was away.");
     for (const RigAccount& rig : report.rigs)
         text.sample(number(rig.status.outages), {{"rig", rig.status.rig}});
-    text.counter("rig_outage_seconds", "Time that the rig was away.");
+    text.counter("rig_outage_seconds", "Total time of the rig's outages.");
     for (const RigAccount& rig : report.rigs)
         text.sample(rig.status.outage_s, {{"rig", rig.status.rig}});
     text.summary("rig_latency_seconds", "From exposure to decoded.");
     for (const RigAccount& rig : report.rigs)
         text.percentiles(rig.status.latency_ms, {{"rig", rig.status.rig}});
-    text.gauge("rig_temperature_celsius", "Of the hottest of the rig's sensors.");
+    text.gauge("rig_temperature_celsius", "The rig's hottest sensor.");
     for (const RigAccount& rig : report.rigs)
         if (rig.status.health.temperature_c)
             text.sample(*rig.status.health.temperature_c, {{"rig", rig.status.rig}});
-    text.gauge("rig_under_voltage", "1 while the rig's supply sags.");
+    text.gauge("rig_under_voltage", "1 while the rig's supply voltage is too low.");
     for (const RigAccount& rig : report.rigs)
         text.sample(rig.status.health.under_voltage ? 1 : 0, {{"rig", rig.status.rig}});
-    text.counter("rig_refused_connections", "Of strangers, at the rig and at relays on the way.");
+    text.counter("rig_refused_connections",
+                 "Connections that are not from a host, at the rig and at relays.");
     for (const RigAccount& rig : report.rigs)
         text.sample(number(rig.status.health.refused_connections), {{"rig", rig.status.rig}});
-    text.gauge("rig_clock_disciplined", "1 while PTP keeps the rig's clock, or it is this one's.");
+    text.gauge("rig_clock_disciplined",
+               "1 while PTP disciplines the rig's clock, or it is this one's.");
     for (const RigAccount& rig : report.rigs)
         text.sample(rig.status.same_clock || rig.status.sync.disciplined ? 1 : 0,
                     {{"rig", rig.status.rig}});
@@ -139,10 +140,10 @@ void write_rigs(const LiveReport& report, MetricText& text) {
 }
 
 void write_outputs(const LiveReport& report, MetricText& text) {
-    text.gauge("output_up", "1 while the output is on.");
+    text.gauge("output_up", "1 while the output is running.");
     for (const OutputState& output : report.outputs)
         text.sample(output.phase == OutputPhase::on ? 1 : 0, {{"output", output.name}});
-    text.counter("output_pictures", "Pictures that the output took, and that it left out.");
+    text.counter("output_pictures", "Pictures that the output took or dropped.");
     for (const OutputState& output : report.outputs) {
         text.sample(number(output.pictures), {{"output", output.name}, {"result", "taken"}});
         text.sample(number(output.dropped), {{"output", output.name}, {"result", "left_out"}});
@@ -153,7 +154,7 @@ void write_outputs(const LiveReport& report, MetricText& text) {
     text.gauge("output_queued_pictures", "Pictures that wait for the output.");
     for (const OutputState& output : report.outputs)
         text.sample(number(output.queued), {{"output", output.name}});
-    text.counter("output_failures", "Times that the output failed.");
+    text.counter("output_failures", "Number of failures of the output.");
     for (const OutputState& output : report.outputs)
         text.sample(number(output.failures), {{"output", output.name}});
 }
@@ -161,16 +162,16 @@ void write_outputs(const LiveReport& report, MetricText& text) {
 void write_take(const TakeState& take, MetricText& text) {
     text.gauge("take_recording", "1 while a take is recorded.");
     text.sample(take.phase == TakePhase::recording ? 1 : 0);
-    text.gauge("take_frames", "Frames that the take has.");
+    text.gauge("take_frames", "Frames in the take.");
     text.sample(number(take.frames));
-    text.gauge("take_missing_frames", "Frames that the take lacks.");
+    text.gauge("take_missing_frames", "Frames missing from the take.");
     text.sample(number(take.gaps));
-    text.gauge("take_bytes", "Bytes that the take has.");
+    text.gauge("take_bytes", "Size of the take.");
     text.sample(number(take.bytes));
 }
 
 void write_ports(const LiveReport& report, MetricText& text) {
-    text.counter("control_messages", "Messages of others who steer, and what became of them.");
+    text.counter("control_messages", "Remote control messages by outcome.");
     for (const PortState& port : report.ports)
         for (const auto& [result, count] : {std::pair("obeyed", port.stats.obeyed),
                                             {"unknown", port.stats.unknown},
@@ -190,6 +191,55 @@ std::string to_open_metrics(const LiveReport& report) {
     if (report.take) write_take(*report.take, text);
     write_ports(report, text);
     return text.whole();
+}
+
+namespace {
+
+constexpr double ms_per_s = 1000;
+
+std::string escaped(std::string_view text) {
+    std::string safe;
+    for (const char c : text) {
+        if (c == '\n') {
+            safe += "\\n";
+            continue;
+        }
+        if (c == '"' || c == '\\') safe += '\\';
+        safe += c;
+    }
+    return safe;
+}
+
+}  // namespace
+
+void MetricText::family(std::string_view name, std::string_view kind, std::string_view help) {
+    name_ = fmt::format("vantage_{}", name);
+    kind_ = kind;
+    text_ += fmt::format("# TYPE {} {}\n# HELP {} {}\n", name_, kind_, name_, escaped(help));
+}
+
+void MetricText::line(std::string_view ending, double value, Labels labels,
+                      std::string_view quantile) {
+    std::string inside;
+    const auto add = [&](std::string_view name, std::string_view label) {
+        inside += fmt::format("{}{}=\"{}\"", inside.empty() ? "" : ",", name, escaped(label));
+    };
+    for (const auto& [name, label] : labels) add(name, label);
+    if (!quantile.empty()) add("quantile", quantile);
+    text_ += fmt::format("{}{}{} {}\n", name_, ending,
+                         inside.empty() ? "" : fmt::format("{{{}}}", inside), value);
+}
+
+void MetricText::sample(double value, Labels labels) {
+    line(kind_ == "counter" ? "_total" : kind_ == "info" ? "_info" : "", value, labels);
+}
+
+void MetricText::percentiles(const Percentiles& ms, Labels labels) {
+    if (ms.count == 0) return;
+    for (const auto& [quantile, value] :
+         {std::pair("0.5", ms.p50), {"0.95", ms.p95}, {"0.99", ms.p99}, {"1", ms.max}})
+        line("", value / ms_per_s, labels, quantile);
+    line("_count", static_cast<double>(ms.count), labels);
 }
 
 }  // namespace vantage

@@ -24,12 +24,12 @@
 namespace vantage {
 namespace {
 
-/// So often the rigs are told what hosts have come to ask for.
+/// How often the hosts' combined requests are sent to the rigs.
 constexpr std::chrono::milliseconds request_period{50};
 constexpr const char* option_name = "--listen";
 constexpr int highest_port = 65535;
 
-/// Of every rig, in their order.
+/// The relay's endpoint for each rig, in their order.
 std::vector<std::string> endpoints_of(const StageConfig& stage, const std::string& listen) {
     const Endpoint first = parse_endpoint(listen, option_name);
     std::vector<std::string> all;
@@ -69,24 +69,26 @@ struct RigRelay::Impl {
               link(context, config, keys),
               server(settings, config.name, random_id()) {
             server.change([&](HostLinks& links) {
-                links.set_away(fmt::format("the relay has not heard of rig {} yet", name));
-                links.serve_views_only(fmt::format(
-                    "rig {} is reached through a relay, which passes on no raw pairs; calibrate "
-                    "with the rig's own endpoint",
-                    name));
-                links.serve_no_kept(fmt::format(
-                    "rig {} is reached through a relay, which brings nothing that rigs keep; fetch "
-                    "from the rig's own endpoint",
-                    name));
+                links.set_away(fmt::format("the relay has not reached rig {} yet", name));
+                links.serve_views_only(
+                    fmt::format("rig {} is reached through a relay, which does not forward raw "
+                                "pairs; calibrate "
+                                "with the rig's own endpoint",
+                                name));
+                links.serve_no_kept(
+                    fmt::format("rig {} is reached through a relay, which does not forward rigs' "
+                                "recordings; fetch "
+                                "from the rig's own endpoint",
+                                name));
             });
         }
         const std::string name;
         RigLink link;
         FrameServer server;
         std::uint64_t report_id = 0;
-        std::shared_ptr<const std::string> report;  ///< the last that was passed on
-        std::uint64_t dropped = 0, skipped = 0;     ///< that hosts were told of
-        // Under the mutex.
+        std::shared_ptr<const std::string> report;  ///< the last forwarded one
+        std::uint64_t dropped = 0, skipped = 0;     ///< already reported to hosts
+        // Guarded by the mutex.
         Rig shown;
     };
 
@@ -125,7 +127,7 @@ struct RigRelay::Impl {
         try {
             while (!stopping) turn();
         } catch (const std::exception& error) {
-            log_error("relaying came to an end: {}", error.what());
+            log_error("relaying ended: {}", error.what());
             const std::lock_guard lock(mutex);
             failure = error.what();
         }
@@ -143,7 +145,7 @@ struct RigRelay::Impl {
         for (const auto& rig : rigs) turn(*rig, now);
     }
 
-    /// A frame at a time: a rig that floods the relay gets no more of its turn than others.
+    /// Forwards one frame, so that a rig that floods the relay does not delay the others.
     void turn(Relayed& rig, MonotonicTime now) {
         rig.link.watch(now);
         const std::optional<RigLink::Delivery> delivery = rig.link.receive(now);
@@ -179,7 +181,7 @@ struct RigRelay::Impl {
         std::string away;
         if (!view.connected) {
             const std::string trouble = trouble_of(view);
-            away = fmt::format("rig {} does not reach the relay{}{}", rig.name,
+            away = fmt::format("the relay does not reach rig {}{}{}", rig.name,
                                trouble.empty() ? "" : ": ", trouble);
         }
         rig.server.check();
@@ -228,7 +230,7 @@ std::vector<RigRelay::Rig> RigRelay::status() const {
     std::vector<Rig> all;
     {
         const std::lock_guard lock(impl_->mutex);
-        if (!impl_->failure.empty()) fail("relaying came to an end: {}", impl_->failure);
+        if (!impl_->failure.empty()) fail("relaying ended: {}", impl_->failure);
         for (const auto& rig : impl_->rigs) all.push_back(rig->shown);
     }
     for (std::size_t i = 0; i < all.size(); ++i)

@@ -11,40 +11,40 @@
 
 namespace vantage {
 
-/// Takes part in a stage as one host towards its rigs, and serves any number of hosts as the rigs
-/// would: a rig's uplink carries each frame once, and each only if a host asks for it. Frames are
-/// passed on as they came, byte for byte, not decoded. A host that is slow loses its oldest frames,
-/// which are counted, and holds up neither rigs nor other hosts. What is dropped between rig and
-/// relay is in the account of every host. Keys are checked on both sides: by the rigs, and here.
-/// Raw pairs, and what rigs keep, are not passed on. Thread-safe.
+/// Forwards the frames of a stage's rigs to any number of hosts. It is one host to the rigs, and
+/// serves hosts as the rigs would, so that a rig's uplink carries each frame once and only on
+/// request. Frames are forwarded byte for byte, without decoding. A slow host loses its oldest
+/// frames, which are counted, and delays neither rigs nor other hosts. Losses between rig and relay
+/// are added to every host's account. Keys are checked on both sides. Raw pairs and rigs' own
+/// recordings are not forwarded. Thread-safe.
 class RigRelay {
   public:
     struct Settings {
-        /// tcp://HOST:PORT of the first rig; the next ones have the ports that follow. Port "*":
-        /// any free ones.
+        /// tcp://HOST:PORT for the first rig; further rigs get the following ports. Port "*": free
+        /// ports.
         std::string listen;
         std::filesystem::path authorized_hosts{};  ///< empty: no keys towards hosts, on loopback
-        int queue_frames = 4;                      ///< that may wait for one host, a rig
+        int queue_frames = 4;                      ///< frames per rig that may wait for one host
     };
 
-    /// The stage's key_file is whose key rigs and hosts know the relay by. Throws Error if a key,
-    /// a list or an endpoint is unusable.
+    /// The key in the stage's key_file identifies the relay to rigs and hosts. Throws Error if a
+    /// key, a list or an endpoint is invalid.
     RigRelay(const StageConfig& stage, const Settings& settings);
     ~RigRelay();
 
     struct Rig {
         std::string name;
-        std::string endpoint;    ///< where hosts reach it here
-        std::string public_key;  ///< that hosts know it by here; empty: none
+        std::string endpoint;    ///< of this relay, for hosts
+        std::string public_key;  ///< of this relay, for hosts; empty: none
         bool connected = false;
-        std::string trouble;            ///< why not, as far as it is known
-        std::uint64_t frames = 0;       ///< that came
-        std::uint64_t bytes = 0;        ///< of those
-        std::uint64_t dropped = 0;      ///< that the rig dropped on the way here, or that got lost
-        std::uint64_t undecodable = 0;  ///< messages that were none
+        std::string trouble;            ///< why it is not connected, if known
+        std::uint64_t frames = 0;       ///< received
+        std::uint64_t bytes = 0;        ///< received
+        std::uint64_t dropped = 0;      ///< dropped by the rig for this relay, or lost
+        std::uint64_t undecodable = 0;  ///< invalid messages
         std::vector<HostLinks::HostStatus> hosts{};
     };
-    /// In the order of the stage. Throws Error if relaying came to an end.
+    /// In the order of the stage. Throws Error if relaying ended.
     std::vector<Rig> status() const;
 
   private:

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// For the last word to leave.
+/// Time for the last message to leave.
 constexpr std::chrono::seconds linger{2};
 
 }  // namespace
@@ -26,7 +26,7 @@ PairingCall::PairingCall(const std::string& endpoint, const CurveKeys& keys,
     try {
         socket_.connect(endpoint);
     } catch (const zmq::error_t& error) {
-        fail("{} cannot be called: {}", endpoint, error.what());
+        fail("cannot connect to {}: {}", endpoint, error.what());
     }
     send(pairing_.commit());
 }
@@ -42,12 +42,12 @@ void PairingCall::turn(MonotonicTime now) {
         }
     }
     if (is_agreed() || now < end_) return;
-    // Else it would be delivered when somebody listens there at last.
+    // Otherwise the commitment would be delivered when a rig listens there later.
     if (!pairing_.code()) {
         socket_.set(zmq::sockopt::linger, 0);
         fail(
-            "nobody pairs at {}; a rig is opened for it with: sudo vantage-rig pair (TCP port {} "
-            "has to be let through)",
+            "nothing pairs at {}; open the rig for pairing with: sudo vantage-rig pair (and let "
+            "TCP port {} through its firewall)",
             endpoint_, parse_endpoint(endpoint_, "--rig").port);
     }
     refuse("the codes were not compared in time");

@@ -10,32 +10,32 @@
 
 namespace vantage {
 
-/// One attempt of this host to pair with a rig that is open for it.
+/// One attempt of this host to pair with a rig that is open for pairing. Not thread-safe.
 class PairingCall {
   public:
-    /// How long the rig's program may take, and both persons.
+    /// How long the rig's program and both persons may take.
     struct Limits {
         std::chrono::nanoseconds answer_in = std::chrono::seconds(5);
         std::chrono::nanoseconds compare_in = std::chrono::minutes(2);
     };
 
-    /// Calls the rig. `name`: of this host. Throws Error if the endpoint is none.
+    /// Connects to the rig. `name`: of this host. Throws Error for an invalid endpoint.
     PairingCall(const std::string& endpoint, const CurveKeys& keys, const std::string& name,
                 const Limits& limits);
 
-    /// To be polled.
+    /// The socket to poll.
     zmq::socket_t& socket() { return socket_; }
-    /// Takes in what has come, and looks at the time. Throws Error for what ends the attempt.
+    /// Handles messages and time limits. Throws Error for a fault that ends the attempt.
     void turn(MonotonicTime now);
 
-    /// What the person here is to compare now; nothing: not known, or answered already.
+    /// The code that the person at this host is to compare now; empty if unknown or answered.
     std::optional<std::string> to_compare() const;
     const PairOffer& rig() const { return pairing_.rig(); }
-    /// He has found both the same.
+    /// Confirms that both codes are the same.
     void confirm();
-    /// Tells the rig that this attempt is over, and why.
+    /// Ends the attempt and tells the rig why.
     void refuse(const std::string& why) { send(PairRefusal{why}); }
-    /// Both have confirmed.
+    /// Whether both ends have confirmed.
     bool is_agreed() const { return pairing_.is_agreed(); }
 
   private:

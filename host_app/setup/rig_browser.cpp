@@ -20,12 +20,12 @@ namespace {
 struct FreePoll {
     void operator()(AvahiSimplePoll* poll) const { avahi_simple_poll_free(poll); }
 };
-/// Takes its browsers and resolvers with it.
+/// Frees the client with its browsers and resolvers.
 struct FreeClient {
     void operator()(AvahiClient* client) const { avahi_client_free(client); }
 };
 
-/// What has been resolved so far, by name.
+/// The rigs resolved so far, by name.
 struct Found {
     std::map<std::string, FoundRig> rigs;
 
@@ -35,7 +35,7 @@ struct Found {
         FoundRig& rig = rigs[name];
         rig.name = name;
         const bool is_v6 = address.proto == AVAHI_PROTO_INET6;
-        // Of a rig with both kinds the one that reads well, and needs no interface to be named.
+        // IPv4 is preferred, since it is readable and needs no interface.
         if (rig.host.empty() || !is_v6)
             rig.host = is_v6 ? "[" + std::string(text.data()) + "]" : std::string(text.data());
         (type == pairing_service ? rig.pairing_port : rig.stream_port) = port;
@@ -52,7 +52,7 @@ void on_resolved(AvahiServiceResolver* resolver, AvahiIfIndex, AvahiProtocol,
                  AvahiResolverEvent event, const char* name, const char* type, const char*,
                  const char*, const AvahiAddress* address, std::uint16_t port, AvahiStringList*,
                  AvahiLookupResultFlags, void* found) {
-    // A link-local address means nothing without its interface.
+    // A link-local address is useless without its interface.
     if (event == AVAHI_RESOLVER_FOUND && !is_link_local(*address))
         static_cast<Found*>(found)->add(name, type, *address, port);
     avahi_service_resolver_free(resolver);
@@ -79,13 +79,13 @@ std::vector<FoundRig> find_rigs(std::chrono::milliseconds time,
         avahi_client_new(avahi_simple_poll_get(poll.get()), {}, on_client, nullptr, &error));
     if (!client)
         fail(
-            "this computer cannot look for rigs ({}): install and start avahi-daemon, or name "
-            "every rig with --rig HOST",
+            "cannot browse for rigs ({}): install and start avahi-daemon, or give every rig with "
+            "--rig HOST",
             avahi_strerror(error));
     for (const char* type : {pairing_service, stream_service})
         if (!avahi_service_browser_new(client.get(), AVAHI_IF_UNSPEC, AVAHI_PROTO_UNSPEC, type,
                                        nullptr, {}, on_browsed, &found))
-            fail("avahi-daemon does not look for rigs: {}",
+            fail("avahi-daemon refuses to browse for rigs: {}",
                  avahi_strerror(avahi_client_errno(client.get())));
     constexpr int turn_ms = 50;
     const MonotonicTime end = MonotonicClock::now() + time;

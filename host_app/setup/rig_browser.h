@@ -7,17 +7,17 @@
 
 namespace vantage {
 
-/// A rig that announces itself on the network.
+/// A rig announced on the network.
 struct FoundRig {
     std::string name;
     std::string host;      ///< its address; IPv6 in brackets
-    int pairing_port = 0;  ///< 0: it is not open for pairing
-    int stream_port = 0;   ///< 0: it streams to nobody but its own computer
+    int pairing_port = 0;  ///< 0: not open for pairing
+    int stream_port = 0;   ///< 0: streams to programs on its own computer only
     bool operator==(const FoundRig&) const = default;
 };
 
-/// Looks so long for rigs that announce themselves by DNS-SD, through Avahi; by name. Throws Error
-/// where this computer cannot look: without avahi-daemon rigs are found by their addresses.
+/// Browses for rigs by DNS-SD through Avahi for `time`, and returns them sorted by name. Throws
+/// Error if avahi-daemon is not available; rigs are then given by their addresses.
 std::vector<FoundRig> find_rigs(std::chrono::milliseconds time,
                                 const std::function<bool()>& is_stopped);
 

@@ -8,7 +8,6 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/config/toml_edit.h"
-#include "common/config/toml_text.h"
 
 namespace vantage {
 namespace {
@@ -46,7 +45,7 @@ void StageFile::add(const StageConfig::Rig& rig, double rate_hz) {
         if (!text.empty() && text.back() != '\n') text += '\n';
     } else {
         text = fmt::format(
-            "# The stage, as vantage setup found it; every key is in the example of this name.\n"
+            "# The stage, written by vantage setup; the example file of this name has every key.\n"
             "version = 1\nkey_file = {}\nrate_hz = {}\n",
             key_file, rate_hz);
     }
@@ -56,8 +55,7 @@ void StageFile::add(const StageConfig::Rig& rig, double rate_hz) {
 
 void StageFile::write(const std::string& text) {
     make_folder(file_.parent_path());
-    // Read before it takes the old one's place, so that what cannot be is refused and the old
-    // stays.
+    // Validated before it replaces the old file, so that a fault leaves that untouched.
     const std::filesystem::path tried = file_.string() + ".new";
     write_text_atomically(tried, text);
     try {

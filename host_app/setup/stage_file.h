@@ -8,23 +8,22 @@
 
 namespace vantage {
 
-/// stage.toml as `vantage setup` writes it: made where there is none, and else given rigs at its
-/// end, with all that stands there left as it is.
+/// Edits stage.toml for `vantage setup`: creates it, or adds rigs at its end and keeps the rest as
+/// it is.
 class StageFile {
   public:
-    /// Throws Error for one that is there and cannot be.
+    /// Throws Error for an existing but invalid file.
     explicit StageFile(std::filesystem::path file);
 
     const std::filesystem::path& path() const { return file_; }
     bool is_there() const { return is_there_; }
-    /// Without rigs if it is not there.
+    /// The configuration; without rigs if the file does not exist.
     const StageConfig& config() const { return config_; }
-    /// This host's own, of the file that the stage names, else host.key beside it; made and written
-    /// where there is none.
+    /// This host's keys, from the file that the stage names, or host.key beside it, which is
+    /// created if missing.
     CurveKeys host_keys() const;
 
-    /// Adds a rig, whole or not at all. Throws Error for what would make the file one that cannot
-    /// be.
+    /// Adds a rig and writes the file atomically. Throws Error if the result would be invalid.
     void add(const StageConfig::Rig& rig, double rate_hz);
 
   private:

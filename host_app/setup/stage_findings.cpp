@@ -12,7 +12,7 @@ void add_clock(const RigStatus& rig, std::vector<Finding>& findings) {
              "at the rig: sudo systemctl enable --now vantage-ptp vantage-phc2sys, or "
              "vantage-ptp-software where ethtool -T lists no hardware-transmit; the host leads "
              "(docs/deploy.md, 5)"});
-    if (const std::string worry = tai_worry(rig); !worry.empty())
+    if (const std::string worry = tai_warning(rig); !worry.empty())
         findings.push_back(
             {rig.rig, true, worry, "chrony with leapsectz right/UTC on all computers or on none"});
 }
@@ -44,7 +44,7 @@ std::vector<Finding> findings_of(const ReceiverStatus& status, const std::string
         }
         if (const std::string trouble = trouble_of(rig); !trouble.empty())
             findings.push_back({rig.rig, true, trouble,
-                                trouble == rate_worry(rig)
+                                trouble == rate_warning(rig)
                                     ? fmt::format("rate_hz in [source] of the rig's rig.toml, or "
                                                   "at the top of {}",
                                                   stage_file)

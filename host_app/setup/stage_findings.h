@@ -7,15 +7,15 @@
 
 namespace vantage {
 
-/// What a rig of the stage lacks.
+/// A fault of a rig that `vantage setup` reports.
 struct Finding {
     std::string rig;
-    bool blocks = false;  ///< the rig gives the stage nothing as long as it is so
+    bool blocks = false;  ///< whether the rig contributes nothing because of it
     std::string what;
-    std::string mend;  ///< what to do about it, where `what` does not say
+    std::string mend;  ///< the repair, unless `what` contains it
 };
 
-/// By rig, in the stage's order. `stage_file`: for commands that are named.
+/// The findings by rig, in the stage's order. `stage_file`: for the commands in them.
 std::vector<Finding> findings_of(const ReceiverStatus& status, const std::string& stage_file);
 
 }  // namespace vantage

@@ -5,7 +5,7 @@
 #include <cstdarg>
 #include <cstring>
 
-// Of its error handlers the header leaves the linkage to C++.
+// ALSA's header does not declare C linkage for its error handlers.
 extern "C" {
 #include <alsa/asoundlib.h>
 }
@@ -18,7 +18,7 @@ namespace {
 constexpr unsigned buffer_us = 500'000, period_us = 10'000;
 constexpr std::size_t most_at_once = 4800;
 
-/// The finest first.
+/// Sample formats, best first.
 constexpr std::array formats{SND_PCM_FORMAT_S32_LE, SND_PCM_FORMAT_FLOAT_LE, SND_PCM_FORMAT_S24_LE,
                              SND_PCM_FORMAT_S24_3LE, SND_PCM_FORMAT_S16_LE};
 
@@ -50,7 +50,7 @@ float value_of(const std::uint8_t* bytes, int format) {
 void AlsaCapture::Inpainting::operator()(_snd_pcm* device) const { snd_pcm_close(device); }
 
 AlsaCapture::AlsaCapture(const std::string& name, unsigned left, unsigned right) : name_(name) {
-    // ALSA would print it too.
+    // ALSA would also print the error to stderr.
     snd_lib_error_set_local([](const char*, int, const char*, int, const char*, va_list) {});
     snd_pcm_t* device = nullptr;
     if (const int code =
@@ -60,7 +60,7 @@ AlsaCapture::AlsaCapture(const std::string& name, unsigned left, unsigned right)
     device_.reset(device);
     choose_format();
     if (std::max(left, right) > channels_)
-        fail("the sound device {} has {} channels, and no channel {}", name, channels_,
+        fail("the sound device {} has {} channels, but no channel {}", name, channels_,
              std::max(left, right));
     left_ = left == 0 ? 0 : left - 1;
     right_ = right == 0 ? std::min(channels_, 2U) - 1 : right - 1;
@@ -81,13 +81,14 @@ void AlsaCapture::choose_format() {
     snd_pcm_hw_params_t* request = nullptr;
     snd_pcm_hw_params_alloca(&request);
     int code = snd_pcm_hw_params_any(device, request);
-    if (code >= 0) code = snd_pcm_hw_params_set_access(device, request, SND_PCM_ACCESS_RW_INTERLEAVED);
-    if (code < 0) refuse("it has no way to be read", code);
+    if (code >= 0)
+        code = snd_pcm_hw_params_set_access(device, request, SND_PCM_ACCESS_RW_INTERLEAVED);
+    if (code < 0) refuse("it supports no access mode", code);
     const auto format = std::find_if(formats.begin(), formats.end(), [&](snd_pcm_format_t each) {
         return snd_pcm_hw_params_set_format(device, request, each) == 0;
     });
     if (format == formats.end())
-        fail("the sound device {} has samples of 16, 24 or 32 bits in no form that is known",
+        fail("the sound device {} supports none of the sample formats with 16, 24 or 32 bits",
              name_);
     format_ = *format;
     rate_hz_ = sound_rate_hz;
@@ -97,7 +98,8 @@ void AlsaCapture::choose_format() {
     snd_pcm_hw_params_set_channels_near(device, request, &channels_);
     snd_pcm_hw_params_set_buffer_time_near(device, request, &buffer, nullptr);
     snd_pcm_hw_params_set_period_time_near(device, request, &period, nullptr);
-    if (code = snd_pcm_hw_params(device, request); code < 0) refuse("it takes no settings", code);
+    if (code = snd_pcm_hw_params(device, request); code < 0)
+        refuse("it refuses the settings", code);
 }
 
 AlsaCapture::Piece AlsaCapture::read(std::chrono::milliseconds most) {

@@ -5,27 +5,27 @@
 #include <string>
 #include <vector>
 
-#include "host_app/sound/sound_converter.h"
+#include "host_app/sound/sound_decoder.h"
 
 struct _snd_pcm;
 
 namespace vantage {
 
-/// A device of ALSA that sound is recorded from, PulseAudio's and PipeWire's among them.
+/// Captures from an ALSA device, including PulseAudio's and PipeWire's. Not thread-safe.
 class AlsaCapture {
   public:
-    /// `left`, `right`: of its channels, counted from 1; 0: the first two, or its only one for
-    /// both. Throws Error if it cannot be opened, or has no such channel.
+    /// `left`, `right`: channels, counted from 1; 0: the first two, or the only one for both.
+    /// Throws Error if the device cannot be opened or lacks a channel.
     AlsaCapture(const std::string& name, unsigned left, unsigned right);
     ~AlsaCapture();
     AlsaCapture(const AlsaCapture&) = delete;
     AlsaCapture& operator=(const AlsaCapture&) = delete;
 
     struct Piece {
-        std::vector<float> samples;  ///< empty: nothing came
-        TaiTime heard_until{};       ///< its last sample
+        std::vector<float> samples;  ///< empty: none came
+        TaiTime heard_until{};       ///< time of the last sample
     };
-    /// What has come, waiting so long at the most. Throws Error if the device is gone.
+    /// Reads what has come, waiting up to `most`. Throws Error if the device is gone.
     Piece read(std::chrono::milliseconds most);
 
   private:
@@ -42,7 +42,7 @@ class AlsaCapture {
     unsigned rate_hz_ = 0, channels_ = 0;
     std::size_t left_ = 0, right_ = 0;
     std::vector<std::uint8_t> raw_;
-    std::optional<SoundConverter> converter_;  ///< of another rate
+    std::optional<SoundConverter> converter_;  ///< if the device has another rate
 };
 
 }  // namespace vantage

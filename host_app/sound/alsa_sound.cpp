@@ -1,5 +1,3 @@
-#include "host_app/sound/alsa_sound.h"
-
 #include <atomic>
 #include <charconv>
 #include <mutex>
@@ -7,16 +5,18 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "host_app/output/output_url.h"
 #include "host_app/sound/alsa_capture.h"
 #include "host_app/sound/sound_placer.h"
 #include "host_app/sound/sound_ring.h"
+#include "host_app/sound/sound_source.h"
 
 namespace vantage {
 namespace {
 
 using namespace std::chrono_literals;
 
-/// Of the past that can be played again with its sound: 23 MB.
+/// Sound kept for replays: 60 s, 23 MB.
 constexpr std::size_t kept_samples = 60 * static_cast<std::size_t>(sound_rate_hz);
 constexpr std::chrono::milliseconds device_look{50}, device_rest{1000}, longest_sleep{200};
 
@@ -24,7 +24,7 @@ struct ChannelPair {
     unsigned left = 0, right = 0;
 };
 
-/// "3,4" or "3".
+/// Parses "3,4" or "3".
 ChannelPair channels_of(const OutputUrl& url) {
     url.require_options_of({"channels"});
     const std::optional<std::string> text = url.option("channels");
@@ -41,8 +41,8 @@ ChannelPair channels_of(const OutputUrl& url) {
     }
     if (error != std::errc() || at != end || pair.left < 1 || pair.right < 1 ||
         std::max(pair.left, pair.right) > most)
-        fail("the {} {}: channels are one or two of 1 to {}, channels=3,4", url.kind, url.shown,
-             most);
+        fail("the {} {}: give one or two channels from 1 to {}, such as channels=3,4", url.kind,
+             url.shown, most);
     return pair;
 }
 
@@ -95,7 +95,7 @@ class AlsaSound final : public SoundSource {
             state_.removed = stats.removed;
             state_.drift_ppm = stats.drift_ppm();
         }
-        // Some devices that are none give as fast as they are asked.
+        // Virtual devices such as ALSA's null plugin deliver as fast as they are read.
         const std::chrono::nanoseconds early =
             time_of_sound(block.end()) - TaiClock::now() - device_look / 5;
         if (early > 0ns)
@@ -112,7 +112,7 @@ class AlsaSound final : public SoundSource {
             if (state_.failure == sentence) return;
             ++state_.failures;
         }
-        log_error("{}; it is silent until it is back, and the programme goes on", sentence);
+        log_error("{}; the programme continues without sound until the device is back", sentence);
         set_phase(SoundPhase::failed, sentence);
     }
 
@@ -120,7 +120,7 @@ class AlsaSound final : public SoundSource {
     ChannelPair channels_;
     SoundTap tap_;
     SoundRing ring_;
-    SoundPlacer placer_;  ///< of the thread
+    SoundPlacer placer_;  ///< used by the thread only
     mutable std::mutex mutex_;
     SoundState state_;
     std::jthread thread_;

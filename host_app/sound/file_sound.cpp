@@ -1,16 +1,16 @@
-#include "host_app/sound/file_sound.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <utility>
 
+#include "host_app/output/output_url.h"
 #include "host_app/sound/sound_ahead.h"
 #include "host_app/sound/sound_decoder.h"
+#include "host_app/sound/sound_source.h"
 
 namespace vantage {
 namespace {
 
-/// The file from its beginning, once or for ever.
+/// Reads a sound file from its beginning, once or in a loop.
 class FileReading {
   public:
     FileReading(std::filesystem::path path, bool loops)
@@ -54,7 +54,7 @@ class FileSound final : public SoundSource {
               0) {}
 
     std::size_t read(std::int64_t first, std::span<float> samples) override {
-        // Before the beginning and after the end it is silent by right.
+        // Silence before the beginning and after the end does not count as missing.
         const auto count = static_cast<std::int64_t>(samples.size() / sound_channels);
         const std::int64_t early = std::clamp<std::int64_t>(-first, 0, count);
         const auto silent = static_cast<std::size_t>(early);

@@ -7,21 +7,22 @@
 namespace vantage {
 namespace {
 
-/// What is slid over; at half a percent that takes twenty seconds. More than that is a jump.
+/// The largest offset that is corrected by stretching; at 0.5 % that takes 20 s. A larger offset is
+/// a jump.
 constexpr std::int64_t longest_slide = sound_rate_hz / 10;
-/// Of a tick's samples, that are put in or taken out at the most: 9 hundredths of a semitone.
+/// At most 1 / slide_share of a tick's samples is inserted or removed: 0.09 semitones.
 constexpr std::int64_t slide_share = 200;
-/// A take's sound has no hole for less: its pictures' delay falls by half a second while a show
-/// begins.
+/// The limit for a take's sound, so that it has no gap when the pictures' delay falls by half a
+/// second at the begin of a show.
 constexpr std::int64_t longest_tap_slide = sound_rate_hz;
-/// Nobody hears that sound is off by so much: 5 ms.
+/// Offsets up to 5 ms are not corrected: nobody hears them.
 constexpr std::int64_t unheard = sound_rate_hz / 200;
-/// Of pictures, before a take's sound begins: the first is late.
+/// Delays measured before a take's sound begins, since the first picture is late.
 constexpr std::size_t fewest_latencies = 3;
-/// Where silence and sound, or two pieces of sound, meet: 5 ms.
+/// The crossfade between silence and sound, or between two pieces of sound: 5 ms.
 constexpr std::size_t fade_samples = sound_rate_hz / 200;
 
-/// Begins with `from`, where there is any, and goes over to what is there.
+/// Crossfades from `from`, if any, to `samples`.
 void fade_over(std::vector<float>& samples, std::span<const float> from) {
     const std::size_t length = std::min(fade_samples, samples.size() / sound_channels);
     for (std::size_t i = 0; i < length; ++i) {
@@ -34,17 +35,17 @@ void fade_over(std::vector<float>& samples, std::span<const float> from) {
     }
 }
 
-/// Samples by which a tick of `count` is to be longer or shorter, to get over `off`.
+/// By how many samples a tick of `count` is stretched to reduce the offset `off`.
 std::int64_t slide_towards(std::int64_t off, std::int64_t count) {
     const std::int64_t most = std::max<std::int64_t>(1, count / slide_share);
     return std::clamp(off, -most, most);
 }
 
-/// How fast a meter falls, as peak programme meters do (IEC 60268-10: 20 dB in 1.7 s).
+/// The decay of the level meter: that of peak programme meters (IEC 60268-10: 20 dB in 1.7 s).
 constexpr double fall_db_s = 12;
 constexpr double silent_dbfs = -120;
 
-/// The loudest sample, in dB of the most that there can be.
+/// The peak level in dB full scale.
 double peak_dbfs(std::span<const float> samples, double least) {
     float most = 0;
     for (const float value : samples) most = std::max(most, std::abs(value));
@@ -68,7 +69,7 @@ std::optional<std::int64_t> PictureSound::wanted(const Tick& tick, std::int64_t 
         (delay(tick).count() * sound_rate_hz + nanoseconds_per_second / 2) / nanoseconds_per_second;
     if (source_->goes_with_ticks()) return first - delay_samples;
     if (!tick.shown_time) return std::nullopt;
-    // Time that does not go as ticks do, led by a flight or by a jump, is silent.
+    // Time that does not advance at normal speed, led by a flight or a jump, is silent.
     const double period_ns = static_cast<double>(nanoseconds_per_second) / settings_.rate_hz;
     constexpr double even = 0.05;
     if (last_time_ && std::abs(static_cast<double>((*tick.shown_time - *last_time_).count()) -

@@ -1,47 +1,76 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstddef>
+#include <cstdlib>
 #include <memory>
 #include <mutex>
 #include <optional>
 
-#include "host_app/sound/picture_delay.h"
 #include "host_app/sound/sound_source.h"
 
 namespace vantage {
 
-/// The sound of every tick of the programme: what was heard when the instant was exposed that the
-/// tick shows. It goes on without a break whatever ticks and measurements do: where it is to leave
-/// a little earlier or later it is stretched, by half a percent at the most, until it does; what is
-/// too far for that is a jump, faded over and counted.
+/// Estimates the pictures' delay, for sound that is output with them: the median of the latest
+/// delays, updated only when it has moved noticeably. Not thread-safe.
+class PictureDelay {
+  public:
+    void see(std::chrono::nanoseconds latency) {
+        latest_[seen_++ % latest_.size()] = latency;
+        const auto end =
+            latest_.begin() + static_cast<std::ptrdiff_t>(std::min(seen_, latest_.size()));
+        std::array<std::chrono::nanoseconds, most> sorted = latest_;
+        const auto sorted_end = sorted.begin() + (end - latest_.begin());
+        const auto middle = sorted.begin() + (sorted_end - sorted.begin()) / 2;
+        std::nth_element(sorted.begin(), middle, sorted_end);
+        // A third of a picture at 30 Hz.
+        // A third of a picture at 30 Hz.
+        if (seen_ == 1 || std::chrono::abs(*middle - now_) > unseen) now_ = *middle;
+    }
+    std::chrono::nanoseconds now() const { return now_; }
+    std::size_t seen() const { return seen_; }
+
+  private:
+    /// Enough for some seconds.
+    static constexpr std::size_t most = 127;
+    std::array<std::chrono::nanoseconds, most> latest_{};
+    std::size_t seen_ = 0;
+    std::chrono::nanoseconds now_{0};
+};
+
+/// Computes the sound of every programme tick: what was heard at the exposure of the instant that
+/// the tick shows. The sound is continuous: if it has to move slightly, it is stretched by up to
+/// 0.5 %; a larger move is a jump with a crossfade, and is counted.
 class PictureSound {
   public:
     struct Settings {
         double rate_hz = 30;  ///< of the programme
-        /// From being heard to leaving; nothing: as long as pictures take. Of a file 0 then.
+        /// From being heard to output; empty: the pictures' delay, or 0 for a file.
         std::optional<std::chrono::nanoseconds> delay = {};
-        /// Gets what goes with ticks, by when it would have been heard; see SoundTap.
+        /// Gets the sound of all ticks with the times at which it would have been heard.
         SoundTap tap = {};
     };
     PictureSound(const Settings& settings, std::shared_ptr<SoundSource> source);
 
-    /// What the next tick is of.
+    /// The time of a tick and of its picture.
     struct Tick {
-        TaiTime now{};                        ///< when it is
-        std::optional<TaiTime> shown_time{};  ///< to which time has gone: now, or in the past;
-                                              ///< nothing: it stands, or goes another way
+        TaiTime now{};                        ///< time of the tick
+        std::optional<TaiTime> shown_time{};  ///< time that is shown, now or in the past; empty:
+                                              ///< it stands, or does not advance at normal speed
     };
-    /// Called by one thread, tick by tick. Never waits.
+    /// The sound of the next tick. Called by one thread for every tick. Never waits.
     std::shared_ptr<const SoundBlock> next(const Tick& tick);
-    /// How long a picture took: from exposure to its tick, or, of the past, by how much it is
-    /// behind the time that was asked for.
+    /// Reports a picture's delay: from exposure to its tick, or, in a replay, behind the requested
+    /// time.
     void saw_live(std::chrono::nanoseconds latency) { live_.see(latency); }
     void saw_past(std::chrono::nanoseconds latency) { past_.see(latency); }
 
     SoundState state() const;
 
   private:
-    /// The sample that is to begin the tick; nothing: silence is due.
+    /// The first sample of the tick; empty for silence.
     std::optional<std::int64_t> wanted(const Tick& tick, std::int64_t first) const;
     std::chrono::nanoseconds delay(const Tick& tick) const;
     void give_to_tap(const Tick& tick, const SoundBlock& block);
@@ -50,12 +79,12 @@ class PictureSound {
     std::shared_ptr<SoundSource> source_;
     SoundGrid grid_;
     std::int64_t tick_ = 0;
-    std::optional<TaiTime> last_time_;      ///< of the tick before
-    std::optional<std::int64_t> position_;  ///< the next sample; nothing: silence goes on
-    std::optional<std::int64_t> tapped_;    ///< the next sample of the tap
+    std::optional<TaiTime> last_time_;      ///< of the previous tick
+    std::optional<std::int64_t> position_;  ///< the next sample; empty: silence
+    std::optional<std::int64_t> tapped_;    ///< the next sample for the tap
     PictureDelay live_, past_;
 
-    mutable std::mutex mutex_;  ///< of what is told
+    mutable std::mutex mutex_;  ///< guards the reported state
     SoundState told_;
 };
 

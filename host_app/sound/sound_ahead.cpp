@@ -9,10 +9,10 @@ namespace vantage {
 namespace {
 
 constexpr std::int64_t kept_around = 16 * sound_rate_hz;
-/// A programme that was held up for that long takes it all at once.
+/// A programme that was held up takes the sound of that time at once.
 constexpr std::int64_t read_ahead = 8 * sound_rate_hz;
 constexpr std::int64_t fetched_at_once = sound_rate_hz / 5;
-/// Before what was asked for last, since sound slides.
+/// Kept before the last request, since sound may slide back.
 constexpr std::int64_t slide_room = sound_rate_hz / 10;
 
 }  // namespace

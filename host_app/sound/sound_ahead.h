@@ -10,36 +10,36 @@
 
 namespace vantage {
 
-/// Sound that has to be read and decoded, on a thread of its own, some seconds before it is asked
-/// for, so that whoever asks never waits. After a jump it is silent until that is read.
+/// Reads and decodes sound on a thread of its own, some seconds before it is requested, so that
+/// read() never waits. After a jump it is silent until the sound there has been read.
 class SoundAhead {
   public:
-    /// Samples of the block, of which as many come as it can hold; fewer: that is the end of all.
-    /// Called by one thread. What it throws ends the reading.
+    /// Fetches up to `count` samples from `first`; fewer mean the end of the sound. Called by one
+    /// thread. An exception ends the reading.
     using Fetch = std::function<std::vector<float>(std::int64_t first, std::size_t count)>;
-    /// Has read what comes after `first` when it returns. Throws what `fetch` throws.
+    /// Fetches the first part before it returns. Throws what `fetch` throws.
     SoundAhead(Fetch fetch, std::int64_t first);
     ~SoundAhead();
     SoundAhead(const SoundAhead&) = delete;
     SoundAhead& operator=(const SoundAhead&) = delete;
 
-    /// As SoundSource's.
+    /// See SoundSource::read().
     std::size_t read(std::int64_t first, std::span<float> samples);
     struct State {
-        std::string failure;  ///< that ended the reading; empty: none did
+        std::string failure;  ///< why reading ended; empty: no failure
         std::uint64_t fetched = 0;
-        bool is_at_end = false;  ///< all of it was read
+        bool is_at_end = false;  ///< whether all sound was read
     };
     State state() const;
 
   private:
-    /// One piece; false: there is enough for now.
+    /// Fetches one part; false: enough is there for now.
     bool fetch_some(std::int64_t wanted);
     void run();
 
     Fetch fetch_;
     SoundRing ring_;
-    std::int64_t next_;  ///< of the thread
+    std::int64_t next_;  ///< used by the thread only
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     std::int64_t wanted_;

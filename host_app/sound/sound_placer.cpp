@@ -6,12 +6,12 @@
 namespace vantage {
 namespace {
 
-/// What cannot be the clock: samples were lost, or the device runs as fast as it can.
+/// An offset that clock drift cannot explain: samples were lost, or the device runs at full speed.
 constexpr std::int64_t break_samples = sound_rate_hz / 4;
-/// A device that runs off is brought back once it is so far off, on the average of two seconds.
+/// The average offset at which drift is corrected, over two seconds.
 constexpr double mended_samples = sound_rate_hz / 1000.0;
 constexpr double average_samples = 2.0 * sound_rate_hz;
-/// The most that a block is longer or shorter.
+/// At most 1 / mend_share of a block is inserted or removed.
 constexpr std::int64_t mend_share = 400;
 
 }  // namespace

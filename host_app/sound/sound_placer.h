@@ -6,17 +6,18 @@
 
 namespace vantage {
 
-/// Gives what a device delivers its place in time. A device counts by a clock of its own: where
-/// that is ahead or behind, a block is a sample shorter or longer now and then, which nobody hears.
+/// Assigns times to the blocks of a device. A device has a clock of its own: blocks are shortened
+/// or lengthened by a sample now and then to follow the computer's clock, inaudibly. Not
+/// thread-safe.
 class SoundPlacer {
   public:
-    /// The block comes next, and its last sample was heard at `heard_until`, give or take what the
-    /// system needed to say so. Empty: it came far too early, and is dropped.
+    /// Places the next block, whose last sample was heard at about `heard_until`. Empty: the block
+    /// came far too early and is dropped.
     SoundBlock place(std::span<const float> block, TaiTime heard_until);
 
     struct Stats {
         std::uint64_t heard = 0, lost = 0, dropped = 0, inserted = 0, removed = 0;
-        /// Of the device's clock, ahead of this computer's.
+        /// How fast the device's clock is relative to this computer's.
         double drift_ppm() const {
             return heard == 0
                        ? 0
@@ -28,7 +29,7 @@ class SoundPlacer {
 
   private:
     std::optional<std::int64_t> next_;
-    double late_ = 0;  ///< by how many samples blocks come after their place, over some seconds
+    double late_ = 0;  ///< average lateness of blocks in samples, over some seconds
     Stats stats_;
 };
 

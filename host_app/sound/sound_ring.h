@@ -9,19 +9,19 @@
 
 namespace vantage {
 
-/// The latest sound, by the numbers of its samples: one thread writes, others read; nobody waits
-/// for more than a copy.
+/// A ring of the latest sound, addressed by sample number. One thread writes, others read, under a
+/// lock held for a copy only.
 class SoundRing {
   public:
-    /// Precondition: capacity > 0; samples.
+    /// Precondition: capacity > 0, in samples.
     explicit SoundRing(std::size_t capacity);
 
-    /// What comes next; samples between the last ones and these are silent, and what was written
-    /// already stays. How many samples of these were new.
+    /// Writes the next samples. A gap before them becomes silence; samples that are there already
+    /// stay. Returns the number of new samples.
     std::size_t write(std::int64_t first, std::span<const float> samples);
-    /// Copies from sample `first` on; what is not there is silent. How many were there.
+    /// Copies from sample `first`; missing samples are silent. Returns the number of found ones.
     std::size_t read(std::int64_t first, std::span<float> samples) const;
-    /// Nothing is there any more; the next is this sample.
+    /// Clears the ring; `first` is the next sample.
     void begin_at(std::int64_t first);
 
     std::int64_t begin() const;

@@ -1,8 +1,6 @@
 #include "host_app/sound/sound_source.h"
 
 #include "common/base/error.h"
-#include "host_app/sound/alsa_sound.h"
-#include "host_app/sound/file_sound.h"
 
 namespace vantage {
 namespace {
@@ -10,7 +8,7 @@ namespace {
 OutputUrl url_of(const std::string& text) {
     OutputUrl url = OutputUrl::parse(text, "audio");
     if (url.scheme != "alsa" && url.scheme != "file")
-        fail("there is no audio {}: it comes from alsa:DEVICE or a file", url.shown);
+        fail("the audio source {} is unknown: give alsa:DEVICE or a file", url.shown);
     return url;
 }
 

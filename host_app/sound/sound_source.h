@@ -10,56 +10,69 @@
 
 namespace vantage {
 
+struct OutputUrl;
+
 enum class SoundPhase {
     opening,
     on,
-    failed,  ///< `failure` says why; a device is tried again
-    ended,   ///< a file, at its end
+    failed,  ///< `failure` has the reason; a device is tried again
+    ended,   ///< a file reached its end
 };
 
-/// How the programme's sound stands. Counts are of samples.
+/// The state of the programme's sound. Counts are in samples.
 struct SoundState {
     std::string name;
     SoundPhase phase = SoundPhase::opening;
-    std::string failure;  ///< empty: none now
+    std::string failure;  ///< empty: none
     std::uint64_t failures = 0;
-    std::uint64_t heard = 0;  ///< that came
-    std::uint64_t lost =
-        0;  ///< that did not come in time to be heard, in place of which is silence
-    std::uint64_t dropped = 0;   ///< that came faster than time goes
-    std::uint64_t inserted = 0;  ///< to keep pace with a programme whose clock is faster...
-    std::uint64_t removed = 0;   ///< ...or slower than the device's
-    double drift_ppm = 0;        ///< of the device's clock, ahead of this computer's
+    std::uint64_t heard = 0;     ///< received from the source
+    std::uint64_t lost = 0;      ///< came too late and are silent
+    std::uint64_t dropped = 0;   ///< came faster than real time
+    std::uint64_t inserted = 0;  ///< where the device's clock is slower than the programme's...
+    std::uint64_t removed = 0;   ///< ...or faster
+    double drift_ppm = 0;        ///< how fast the device's clock is relative to this computer's
 
-    double peak_dbfs = -120;    ///< of what goes with the programme now; 0 is the most
-    double delay_ms = 0;        ///< from being heard to leaving with its picture
-    std::uint64_t played = 0;   ///< that went with the programme
-    std::uint64_t missing = 0;  ///< of those, silent since they were not there
-    std::uint64_t slid = 0;     ///< put in or taken out to follow the picture's delay
-    std::uint64_t jumps = 0;    ///< over what could not be slid over
+    double peak_dbfs = -120;    ///< current level of the programme; 0 is full scale
+    double delay_ms = 0;        ///< from being heard to output with its picture
+    std::uint64_t played = 0;   ///< output with the programme
+    std::uint64_t missing = 0;  ///< of those, silent because they were missing
+    std::uint64_t slid = 0;     ///< inserted or removed to follow the pictures' delay
+    std::uint64_t jumps = 0;    ///< number of jumps
 };
 
-/// For machines, such as "on".
+/// For JSON: "on" etc.
 const char* key_of(SoundPhase phase);
 
-/// Takes sound as it comes: never waits.
+/// Receives sound as it comes; must not block.
 using SoundTap = std::function<void(const SoundBlock&)>;
 
-/// Where the programme's sound comes from. Thread-safe.
+/// The source of the programme's sound. Thread-safe.
 class SoundSource {
   public:
     virtual ~SoundSource() = default;
-    /// From sample `first` on; what is not there is silent. How many were there. Never waits.
+    /// Copies from sample `first`; missing samples are silent. Returns the number of found ones.
+    /// Never waits.
     virtual std::size_t read(std::int64_t first, std::span<float> samples) = 0;
-    /// Samples are counted from the programme's first tick on, not by when they were heard.
+    /// Whether samples are counted from the programme's first tick instead of from the TAI epoch.
     virtual bool goes_with_ticks() const { return false; }
     virtual SoundState state() const = 0;
 };
 
-/// What `--audio` names: `alsa:NAME` or a file. What comes from a device goes to `tap` too. Throws
-/// Error for what is neither, or a file without sound; a device that is missing is waited for.
+/// Opens the argument of `--audio`: `alsa:NAME` or a file. A device's sound also goes to `tap`.
+/// Throws Error for an unknown source or a file without sound; a missing device is waited for.
 std::shared_ptr<SoundSource> open_sound(const std::string& url, SoundTap tap);
-/// Throws Error as that would, and opens no device.
+/// Throws the same Error without opening a device.
 void check_sound(const std::string& url);
+
+/// Opens an ALSA device, with `channels=3,4` for some of its channels. A missing or unplugged
+/// device is silent, is logged, and is tried again until it is there. Throws Error for invalid
+/// options.
+std::shared_ptr<SoundSource> open_alsa_sound(const OutputUrl& url, SoundTap tap);
+/// Throws the same Error without opening the device.
+void check_alsa_sound(const OutputUrl& url);
+
+/// Opens a sound file that starts with the programme's first tick; `loop=yes` repeats it. Throws
+/// Error if the file has no sound.
+std::shared_ptr<SoundSource> open_file_sound(const OutputUrl& url);
 
 }  // namespace vantage

@@ -10,12 +10,12 @@
 namespace vantage {
 namespace {
 
-/// The sound of a take, piece by piece. Of one thread.
+/// Reads the sound of a take block by block. Not thread-safe.
 class TakeSoundReading {
   public:
     explicit TakeSoundReading(std::shared_ptr<const TakeReader> take) : take_(std::move(take)) {}
 
-    /// How many samples the take has of these; the others are silent.
+    /// Copies samples; missing ones are silent. Returns the number of samples that the take has.
     std::size_t read(std::int64_t first, std::span<float> samples) {
         std::fill(samples.begin(), samples.end(), 0.0F);
         const std::int64_t end = first + static_cast<std::int64_t>(samples.size() / sound_channels);
@@ -41,7 +41,7 @@ class TakeSoundReading {
                                                     std::int64_t sample) {
         return samples.begin() + static_cast<std::ptrdiff_t>(sound_channels) * sample;
     }
-    /// Empty: it is damaged.
+    /// The samples of a block; empty if it is damaged.
     const std::vector<float>& samples_of(const TakeReader::Sound& sound) {
         if (sound.first == kept_) return decoded_;
         kept_ = sound.first;
@@ -50,7 +50,7 @@ class TakeSoundReading {
             decoded_ = sound_from_stored(take_->load(sound));
         } catch (const TakeDamaged& error) {
             if (!std::exchange(is_told_, true))
-                log_warning("{}; vantage take check names all such places", error.what());
+                log_warning("{}; vantage take check lists all damage", error.what());
         }
         return decoded_;
     }

@@ -7,12 +7,11 @@
 
 namespace vantage {
 
-/// The sound of a take, by when it was heard. Precondition: the take has one.
-///
-/// Read some seconds ahead on a thread of its own, from `begin` on, for a programme that never
-/// waits.
+/// Opens the sound of a take, addressed by the time at which it was heard. Precondition: the take
+/// has sound. Reads some seconds ahead on a thread of its own, from `begin`, for a programme that
+/// never waits.
 std::shared_ptr<SoundSource> open_take_sound(std::shared_ptr<const TakeReader> take, TaiTime begin);
-/// Read when it is asked for, for a film that has time.
+/// Opens it for reading on request, for film exports, which may wait.
 std::shared_ptr<SoundSource> open_patient_take_sound(std::shared_ptr<const TakeReader> take);
 
 }  // namespace vantage

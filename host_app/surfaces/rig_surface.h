@@ -5,7 +5,7 @@
 #include <span>
 #include <utility>
 
-#include "common/colour/colour_corrector.h"
+#include "common/colour/colour_pass.h"
 #include "host_app/surfaces/depth_grid.h"
 #include "host_app/surfaces/depth_uploader.h"
 #include "host_app/surfaces/drawn_texture.h"

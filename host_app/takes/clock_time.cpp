@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// What the words say; a field that is not told is empty.
+/// The parsed fields of a time; missing ones are empty.
 struct Words {
     std::tm local{};
     bool has_date = false;
@@ -43,16 +43,17 @@ Words read(const std::string& text) {
     local.tm_isdst = -1;
     std::tm whole = local;
     if (!words.has_date) whole.tm_year = 100, whole.tm_mday = 1;
-    // mktime mends what cannot be: an hour 25, a 31st of April.
+    // mktime would normalise an hour 25 or a 31st of April.
     fits = fits && std::mktime(&whole) != -1 &&
            (!words.has_date || (whole.tm_mday == told.tm_mday && whole.tm_mon == told.tm_mon)) &&
            told.tm_hour >= 0 && told.tm_hour < 24 && told.tm_min >= 0 && told.tm_min < 60 &&
            told.tm_sec >= 0 && told.tm_sec < 60;
-    if (!fits) fail("'{}' is no time such as 20:15:00, 20:15:00:12 or 2026-11-22T20:15:00", text);
+    if (!fits)
+        fail("'{}' is not a time such as 20:15:00, 20:15:00:12 or 2026-11-22T20:15:00", text);
     return words;
 }
 
-/// At that time of the day that `near` is in, so many days later.
+/// The time of day on the day of `near` plus `days`.
 std::time_t on_day_of(std::time_t near, const Words& words, int days) {
     std::tm day{};
     localtime_r(&near, &day);
@@ -89,7 +90,7 @@ std::uint64_t pulse_of(const ClockTime& time, const PulseGrid& pulses, int tai_o
     const std::uint64_t before = pulses.index_at_or_before(at);
     const std::uint64_t first = pulses.time_of(before) == at ? before : before + 1;
     if (!time.frame) return first;
-    // Drop-frame code is up to some frames off the clock.
+    // Drop-frame code differs from the clock by up to some frames.
     const TimecodeClock clock(pulses.rate_hz());
     const std::string tail = fmt::format("{:02}", *time.frame);
     std::tm local{};
@@ -101,7 +102,7 @@ std::uint64_t pulse_of(const ClockTime& time, const PulseGrid& pulses, int tai_o
         const std::string code = clock.of_pulse(pulse, tai_offset_s);
         if (code.starts_with(head) && code.ends_with(tail)) return pulse;
     }
-    fail("{} is no time code at {:g} pulses a second", time.text, pulses.rate_hz());
+    fail("{} does not exist in time code at {:g} pulses per second", time.text, pulses.rate_hz());
 }
 
 }  // namespace vantage

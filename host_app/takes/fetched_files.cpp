@@ -21,7 +21,7 @@ FetchedFiles::FetchedFiles(std::filesystem::path folder, std::string rig,
             const std::vector<std::uint64_t> in_file = pulses_of_rig(TakeReader(file.path), rig_);
             there_.insert(there_.end(), in_file.begin(), in_file.end());
         } catch (const Error& error) {
-            log_warning("{}: what is in it is fetched again", error.what());
+            log_warning("{}: its frames are fetched again", error.what());
         }
     }
     std::sort(there_.begin(), there_.end());

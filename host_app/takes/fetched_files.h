@@ -10,23 +10,23 @@
 
 namespace vantage {
 
-/// The takes of one rig in the folder that fetched frames go to. Each stands under its own name
-/// from the start, as takes do, so that a fetch that was broken off goes on behind what is there.
+/// Writes the frames fetched from one rig to takes in a folder. Each take has its final name from
+/// the start, so that an interrupted fetch resumes. Not thread-safe.
 class FetchedFiles {
   public:
-    /// `show`: as TakeFacts. Takes that cannot be read are passed over, with a line in the log.
+    /// `show`: for TakeFacts. Takes that cannot be read are skipped and logged.
     FetchedFiles(std::filesystem::path folder, std::string rig, nlohmann::ordered_json show);
-    /// What is written by then opens.
+    /// Leaves the last file readable.
     ~FetchedFiles();
     FetchedFiles(FetchedFiles&&) = default;
     FetchedFiles& operator=(FetchedFiles&&) = delete;
 
-    /// Pulses of frames that were in the folder already, in order.
+    /// The pulses of frames that the folder had already, in order.
     const std::vector<std::uint64_t>& there() const { return there_; }
-    /// Into the file at hand, or another one where its pictures do not fit that or its pulse is not
-    /// after that of the frame before. Throws Error if the disk fails.
+    /// Writes a frame to the current file, or to a new one if its images do not fit or its pulse is
+    /// not later than the previous one. Throws Error if the disk fails.
     void add(const KeptFrame& frame);
-    /// Closes the file at hand.
+    /// Closes the current file.
     void finish();
 
     const std::vector<std::filesystem::path>& files() const { return files_; }

@@ -11,7 +11,7 @@ namespace vantage {
 namespace {
 
 constexpr std::chrono::seconds progress_period{2};
-/// Between two looks whether it is to end.
+/// The longest wait between two checks of `is_stopped`.
 constexpr std::chrono::milliseconds longest_wait{100};
 
 }  // namespace
@@ -22,7 +22,7 @@ std::vector<FetchStats> KeptFetch::run(const StageConfig& stage,
     for (const std::string& name : rigs)
         if (std::none_of(stage.rigs.begin(), stage.rigs.end(),
                          [&](const StageConfig::Rig& rig) { return rig.name == name; }))
-            fail("the stage has no rig {}", name);
+            fail("the stage has no rig named {}", name);
     std::optional<CurveKeys> keys;
     if (!stage.key_file.empty()) keys = load_key_file(stage.key_file);
     const nlohmann::ordered_json show = to_json(take_show_of(stage));
@@ -56,7 +56,7 @@ std::vector<FetchStats> KeptFetch::run(const StageConfig& stage,
     for (std::size_t turn = 0;
          !std::all_of(fetches.begin(), fetches.end(), is_done) && !is_stopped(); ++turn) {
         const MonotonicTime now = MonotonicClock::now();
-        // Each is the first to spend what there is in its turn.
+        // Round robin: each rig in turn is the first to use the budget.
         for (std::size_t i = 0; i < fetches.size(); ++i)
             fetches[(turn + i) % fetches.size()]->turn(budget, now);
         if (now >= next_progress) {

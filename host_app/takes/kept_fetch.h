@@ -12,20 +12,20 @@
 
 namespace vantage {
 
-/// What is to be brought from the disks of a stage's rigs.
+/// Fetches the rigs' own recordings to this host.
 struct KeptFetch {
-    /// The pulses, by what a rig's clock is from UTC.
+    /// The pulses to fetch, for a rig's TAI offset.
     std::function<PulseRange(int tai_offset_s)> range;
-    std::shared_ptr<const TakeReader> take;  ///< what is in it is not brought; may be null
-    std::vector<std::string> rigs;           ///< of the stage; none: all
-    std::filesystem::path folder;            ///< that is there
-    double bytes_s = 20e6;                   ///< of all rigs together
-    std::chrono::nanoseconds patience = std::chrono::seconds(10);  ///< with a rig that is silent
+    std::shared_ptr<const TakeReader> take;  ///< its frames are not fetched; may be null
+    std::vector<std::string> rigs;           ///< empty: all rigs of the stage
+    std::filesystem::path folder;            ///< existing folder for the files
+    double bytes_s = 20e6;                   ///< total rate limit
+    std::chrono::nanoseconds patience = std::chrono::seconds(10);  ///< with a silent rig
 
     using Progress = std::function<void(const std::vector<FetchStats>&)>;
-    /// Brings it, all rigs side by side, and comes back when every rig has given what it keeps or
-    /// came to an end otherwise, or when `is_stopped`. `progress` is called now and then. Throws
-    /// Error for keys, endpoints and names that cannot be, and if the disk fails.
+    /// Fetches from all rigs in parallel, and returns when each has sent all it has or failed, or
+    /// when `is_stopped`. `progress` is called now and then. Throws Error for invalid keys,
+    /// endpoints and names, and if the disk fails.
     std::vector<FetchStats> run(const StageConfig& stage, const std::function<bool()>& is_stopped,
                                 const Progress& progress) const;
 };

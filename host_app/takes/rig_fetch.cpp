@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-/// Frames under way: while one travels the rig reads the next.
+/// Frames requested at a time: the rig reads the next one while one travels.
 constexpr std::uint64_t window = 2;
 
 }  // namespace
@@ -29,7 +29,7 @@ void RigFetch::turn(BandwidthBudget& budget, MonotonicTime now) {
     link_.watch(now);
     while (const std::optional<RigLink::Delivery> delivery = link_.receive(now))
         if (!stats_.is_done) take_in(*delivery, budget);
-    if (!stats_.is_done) look_at(link_.view(now), now);
+    if (!stats_.is_done) check_link(link_.view(now), now);
     if (request_ && !stats_.is_done) {
         const std::uint64_t most = std::min(window, request_->to_pulse - next_pulse_);
         while (request_->granted < received_ + most && budget.may_spend(now)) {
@@ -45,7 +45,7 @@ void RigFetch::turn(BandwidthBudget& budget, MonotonicTime now) {
 
 void RigFetch::take_in(const RigLink::Delivery& delivery, BandwidthBudget& budget) {
     if (!delivery.kept || !request_ || delivery.message.fetch->id != request_->id) return;
-    // Some were lost on the way, or the rig was started anew and begins again.
+    // Some were lost, or the rig was restarted and begins again.
     if (delivery.message.fetch->sent != received_ + 1) {
         ask_anew();
         return;
@@ -60,12 +60,12 @@ void RigFetch::take_in(const RigLink::Delivery& delivery, BandwidthBudget& budge
         const std::uint64_t pulse = frame.frame.record.pulse;
         if (frame.rig.name != stats_.rig || received_ > request_->granted || pulse < next_pulse_ ||
             pulse >= request_->to_pulse)
-            fail("it is of rig {} and pulse {}, and was not asked for", frame.rig.name, pulse);
+            fail("it is of rig {} and pulse {}, and was not requested", frame.rig.name, pulse);
         if (PulseGrid(frame.pulse_rate_hz).rate_hz() != PulseGrid(rate_hz_).rate_hz())
-            fail("it is of {:g} pulses a second, and the stage has {:g}", frame.pulse_rate_hz,
+            fail("it has {:g} pulses per second, but the stage has {:g}", frame.pulse_rate_hz,
                  rate_hz_);
     } catch (const Error& error) {
-        end(fmt::format("a frame that rig {} keeps is refused: {}", stats_.rig, error.what()));
+        end(fmt::format("a recorded frame of rig {} is invalid: {}", stats_.rig, error.what()));
         return;
     }
     files_.add(frame);
@@ -77,7 +77,7 @@ void RigFetch::take_in(const RigLink::Delivery& delivery, BandwidthBudget& budge
     stats_.bytes += delivery.kept->bytes();
 }
 
-void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
+void RigFetch::check_link(const RigLink::View& view, MonotonicTime now) {
     if (view.connected) {
         silent_since_.reset();
     } else {
@@ -85,8 +85,8 @@ void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
         if (now - *silent_since_ > patience_)
             end(!view.refused.empty()
                     ? view.refused
-                    : fmt::format("rig {} does not answer; the same command goes on where this one "
-                                  "ended when it does",
+                    : fmt::format("rig {} does not answer; repeat the command when it does, to "
+                                  "continue from here",
                                   stats_.rig));
         return;
     }
@@ -94,7 +94,7 @@ void RigFetch::look_at(const RigLink::View& view, MonotonicTime now) {
         if (view.sync.rate_hz != 0 &&
             PulseGrid(view.sync.rate_hz).rate_hz() != PulseGrid(rate_hz_).rate_hz()) {
             end(
-                fmt::format("rig {} works at {:g} pulses a second and the stage at {:g}: make "
+                fmt::format("rig {} has {:g} pulses per second and the stage has {:g}: make "
                             "rate_hz agree",
                             stats_.rig, view.sync.rate_hz, rate_hz_));
             return;
@@ -147,6 +147,19 @@ void RigFetch::finish() {
     files_.finish();
     stats_.files = files_.files();
     stats_.there = files_.there().size();
+}
+
+std::vector<PulseRange> missing_parts(PulseRange whole, std::span<const std::uint64_t> there) {
+    std::vector<PulseRange> parts;
+    std::uint64_t at = whole.from;
+    for (const std::uint64_t pulse : there) {
+        if (pulse < at) continue;
+        if (pulse >= whole.to) break;
+        if (pulse > at) parts.push_back({at, pulse});
+        at = pulse + 1;
+    }
+    if (at < whole.to) parts.push_back({at, whole.to});
+    return parts;
 }
 
 }  // namespace vantage

@@ -1,56 +1,102 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "common/base/time/time.h"
 #include "common/receive/rig_link.h"
-#include "host_app/takes/bandwidth_budget.h"
 #include "host_app/takes/fetched_files.h"
-#include "host_app/takes/pulse_range.h"
 
 namespace vantage {
 
-/// What became of the fetch from one rig.
+/// The pulses from `from` to before `to`.
+struct PulseRange {
+    std::uint64_t from = 0, to = 0;
+    std::uint64_t pulses() const { return to > from ? to - from : 0; }
+    bool operator==(const PulseRange&) const = default;
+};
+
+/// The parts of `whole` without the pulses `there`, which are sorted.
+std::vector<PulseRange> missing_parts(PulseRange whole, std::span<const std::uint64_t> there);
+
+/// Limits the rate of requested bytes: a token bucket that holds a quarter of a second's worth.
+/// Clock readings are arguments. Not thread-safe.
+class BandwidthBudget {
+  public:
+    explicit BandwidthBudget(double bytes_s) : bytes_s_(bytes_s) {}
+
+    bool may_spend(MonotonicTime now) {
+        fill(now);
+        return bytes_ >= 0;
+    }
+    /// Takes bytes out of the bucket, which may become negative, since sizes are known on arrival
+    /// only. Negative: returns an estimate that did not arrive.
+    void spend(double bytes) { bytes_ -= bytes; }
+    /// The time until the bucket is not empty.
+    std::chrono::nanoseconds wait(MonotonicTime now) {
+        fill(now);
+        return std::chrono::nanoseconds(
+            static_cast<std::int64_t>(std::max(0.0, -bytes_) / bytes_s_ * ns_per_s));
+    }
+
+  private:
+    static constexpr double ns_per_s = 1e9, most_s = 0.25;
+    void fill(MonotonicTime now) {
+        if (filled_ != MonotonicTime{})
+            bytes_ =
+                std::min(most_s * bytes_s_,
+                         bytes_ + bytes_s_ * std::chrono::duration<double>(now - filled_).count());
+        filled_ = now;
+    }
+
+    double bytes_s_, bytes_ = 0;
+    MonotonicTime filled_{};
+};
+
+/// The result of the fetch from one rig.
 struct FetchStats {
     std::string rig;
-    std::uint64_t wanted = 0;    ///< pulses that were asked of the rig
-    std::uint64_t frames = 0;    ///< that came
-    std::uint64_t not_kept = 0;  ///< pulses that the rig has no frame of either
-    std::uint64_t there = 0;     ///< pulses that were there already
+    std::uint64_t wanted = 0;    ///< pulses requested from the rig
+    std::uint64_t frames = 0;    ///< frames received
+    std::uint64_t not_kept = 0;  ///< pulses that the rig has not recorded
+    std::uint64_t there = 0;     ///< pulses that the folder or the take had already
     std::uint64_t bytes = 0;
-    std::uint64_t seen = 0;  ///< of `wanted`: came, or are known not to be kept
+    std::uint64_t seen = 0;  ///< of `wanted`: received, or known not to be recorded
     std::vector<std::filesystem::path> files;
-    std::string trouble;  ///< one sentence: why it came to an end; empty: all is here
+    std::string trouble;  ///< why it ended early, in one sentence; empty: complete
     bool is_done = false;
 };
 
-/// Brings the frames that one rig keeps and this host lacks, in the order of their pulses. A
-/// connection that breaks off is taken up where it was. Lives on one thread.
+/// Fetches the recorded frames of one rig that this host lacks, in the order of their pulses.
+/// Continues after a reconnect. Used by one thread.
 class RigFetch {
   public:
-    /// What of the rig is wanted and not here, in order, by what its clock is from UTC.
+    /// The pulses to fetch, in order, for a rig's TAI offset.
     using Plan = std::function<std::vector<PulseRange>(int tai_offset_s)>;
 
-    /// `patience`: with a rig that does not answer.
+    /// `patience`: the longest wait for a rig that does not answer.
     RigFetch(zmq::context_t& context, const StageConfig::Rig& rig,
              const std::optional<CurveKeys>& host_keys, double rate_hz, Plan plan,
              FetchedFiles files, std::chrono::nanoseconds patience);
 
     RigLink& link() { return link_; }
-    /// Takes in what came, and asks for more where `budget` allows. Throws Error if the disk fails.
+    /// Handles messages and requests more frames within `budget`. Throws Error if the disk fails.
     void turn(BandwidthBudget& budget, MonotonicTime now);
-    /// Closes the file at hand.
+    /// Closes the current file.
     void finish();
     const FetchStats& stats() const { return stats_; }
 
   private:
     void take_in(const RigLink::Delivery& delivery, BandwidthBudget& budget);
-    void look_at(const RigLink::View& view, MonotonicTime now);
+    void check_link(const RigLink::View& view, MonotonicTime now);
     void ask_anew();
     void next_part();
     void end(std::string trouble);
@@ -60,11 +106,11 @@ class RigFetch {
     Plan plan_;
     FetchedFiles files_;
     std::chrono::nanoseconds patience_;
-    std::optional<std::deque<PulseRange>> parts_;  ///< still to come, the first is under way
+    std::optional<std::deque<PulseRange>> parts_;  ///< still to fetch; the first is in progress
     std::optional<FetchRequest> request_;
-    std::uint64_t received_ = 0;  ///< for the wish
+    std::uint64_t received_ = 0;  ///< frames of the current request
     std::uint64_t next_pulse_ = 0;
-    double expected_bytes_ = 0;  ///< of a frame: the last one's
+    double expected_bytes_ = 0;  ///< size of the last frame
     std::optional<MonotonicTime> silent_since_;
     FetchStats stats_;
 };

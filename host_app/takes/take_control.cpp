@@ -5,7 +5,6 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/output_path.h"
 #include "common/base/log.h"
-#include "host_app/takes/stage_habits.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {
@@ -55,15 +54,15 @@ class CameraSink final : public PictureSink {
 }  // namespace
 
 TakeControl::TakeControl(const StageConfig& stage, const std::filesystem::path& stage_file,
-                   std::filesystem::path path, std::filesystem::path folder,
-                   std::chrono::nanoseconds pre_roll, bool has_sound)
+                         std::filesystem::path path, std::filesystem::path folder,
+                         std::chrono::nanoseconds pre_roll, bool has_sound)
     : path_(std::move(path)),
       folder_(std::move(folder)),
       has_pre_roll_(pre_roll.count() > 0),
       has_sound_(has_sound),
       recorder_(recorder_settings(stage, stage_file, pre_roll, has_sound)) {
     if (!folder_.empty() && !std::filesystem::is_directory(folder_))
-        fail("takes cannot go to {}: there is no such folder; make it", folder_.string());
+        fail("the folder {} for takes does not exist: create it", folder_.string());
 }
 
 FrameTap TakeControl::tap() {

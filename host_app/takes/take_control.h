@@ -14,32 +14,32 @@
 
 namespace vantage {
 
-/// Begins and ends a live session's takes. While one runs, and always where takes have a pre-roll,
-/// every rig is asked for its frames, also those that the programme does not need now. Thread-safe.
+/// Begins and ends the takes of a live session. During a take, and always with a pre-roll, every
+/// rig is asked for its frames, including those that the programme does not need. Thread-safe.
 class TakeControl {
   public:
-    /// `stage_file` is attached to every take, and the rigs' colour files are. Without a `path`
-    /// takes are named for the time at which they begin and go to `folder`, which has to be there;
-    /// with one the second is PATH-2. Throws Error without that folder.
+    /// `stage_file` and the rigs' colour files are attached to every take. Without a `path`, takes
+    /// are named by their time and go to `folder`, which must exist; with a path, the second take
+    /// is PATH-2. Throws Error if the folder does not exist.
     TakeControl(const StageConfig& stage, const std::filesystem::path& stage_file,
-             std::filesystem::path path, std::filesystem::path folder,
-             std::chrono::nanoseconds pre_roll, bool has_sound = false);
+                std::filesystem::path path, std::filesystem::path folder,
+                std::chrono::nanoseconds pre_roll, bool has_sound = false);
 
-    /// For the receiver; this must outlive it.
+    /// For the receiver. This object must outlive it.
     FrameTap tap();
-    /// The same feed, whose rigs send while a take wants them; those that the programme does not
-    /// need are not decoded then. This must outlive it.
+    /// Wraps a feed so that all rigs send while a take needs them; frames that the programme does
+    /// not need are not decoded. This object must outlive it.
     StageFeed feed(StageFeed feed);
-    /// Records what is heard; empty: takes have no sound. This must outlive it.
+    /// Records sound; empty if takes have no sound. This object must outlive it.
     std::function<void(const SoundBlock&)> sound_tap();
-    /// Records the camera of every tick. This must outlive it.
+    /// Records the camera of every tick. This object must outlive it.
     std::unique_ptr<PictureSink> camera_sink();
 
-    /// Throws Error as TakeRecorder::begin.
+    /// Throws Error like TakeRecorder::begin().
     void begin(const std::filesystem::path& path);
-    /// Ends the take that runs, or begins one; what is wrong with that shows in the log and state.
+    /// Ends the current take, or begins one; faults go to the log and the state.
     void toggle();
-    /// Ends the take that runs and waits until it is written.
+    /// Ends the current take and waits until it is written.
     void finish() { recorder_.finish(); }
 
     TakeState state() const { return recorder_.state(); }
@@ -54,7 +54,7 @@ class TakeControl {
     TakeRecorder recorder_;
     std::mutex mutex_;
     std::function<void(const std::string&, bool)> ask_, look_at_;
-    std::map<std::string, bool> requests_;  ///< of the programme: whether it needs a rig's frames
+    std::map<std::string, bool> requests_;  ///< whether the programme needs a rig's frames
 };
 
 }  // namespace vantage

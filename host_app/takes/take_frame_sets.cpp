@@ -17,7 +17,7 @@ TakeFrameSets::TakeFrameSets(std::shared_ptr<const TakeReader> take) : take_(std
     }
     std::sort(pulses_.begin(), pulses_.end());
     pulses_.erase(std::unique(pulses_.begin(), pulses_.end()), pulses_.end());
-    if (pulses_.empty()) fail("{} holds no frame", take_->path().string());
+    if (pulses_.empty()) fail("{} has no frames", take_->path().string());
 }
 
 TakeFrameSets::~TakeFrameSets() {
@@ -101,7 +101,7 @@ FrameSet TakeFrameSets::decode(std::uint64_t pulse, const Unwanted& unwanted) co
 }
 
 std::shared_ptr<const RigFrame> TakeFrameSets::decode(std::size_t number, std::uint64_t pulse,
-                                                 const Unwanted& unwanted) const {
+                                                      const Unwanted& unwanted) const {
     const std::vector<TakeReader::Frame>& frames = take_->frames(number);
     const auto frame = std::lower_bound(
         frames.begin(), frames.end(), pulse,
@@ -116,7 +116,7 @@ std::shared_ptr<const RigFrame> TakeFrameSets::decode(std::size_t number, std::u
     } catch (const Error& error) {
         const std::lock_guard lock(rig.mutex);
         if (!std::exchange(rig.is_told, true))
-            log_warning("{}; vantage take check names all such places", error.what());
+            log_warning("{}; vantage take check lists all damage", error.what());
         return nullptr;
     }
 }

@@ -14,12 +14,12 @@
 
 namespace vantage {
 
-/// The frame sets of a take, decoded a rig a thread. While it goes in even steps the next set is
-/// decoded before it is asked for; after a jump the set that was asked for comes first and alone.
-/// A frame that is damaged is absent from its set, and told of once in the log.
+/// The frame sets of a take, decoded with one thread per rig. At even steps, the next frame set is
+/// decoded ahead; after a jump, the requested one is decoded first and alone. A damaged frame is
+/// absent from its frame set and logged once. Not thread-safe.
 class TakeFrameSets final : public PastFrameSets {
   public:
-    /// Throws Error if the take holds no frame.
+    /// Throws Error if the take has no frames.
     explicit TakeFrameSets(std::shared_ptr<const TakeReader> take);
     ~TakeFrameSets() override;
 
@@ -39,12 +39,12 @@ class TakeFrameSets final : public PastFrameSets {
     FrameSet decode(std::uint64_t pulse, const Unwanted& unwanted) const;
     std::shared_ptr<const RigFrame> decode(std::size_t rig, std::uint64_t pulse,
                                            const Unwanted& unwanted) const;
-    /// What was decoded ahead, if it is of this pulse; else that is given up.
+    /// The frame set decoded ahead, if it is of this pulse; otherwise it is discarded.
     std::optional<FrameSet> take_ahead(std::uint64_t pulse) const;
     void decode_ahead(std::uint64_t pulse) const;
 
     std::shared_ptr<const TakeReader> take_;
-    std::vector<std::uint64_t> pulses_;  ///< of which there are sets
+    std::vector<std::uint64_t> pulses_;  ///< of all frame sets
     std::vector<std::unique_ptr<Rig>> rigs_;
 
     struct Ahead {
@@ -54,11 +54,11 @@ class TakeFrameSets final : public PastFrameSets {
     };
     mutable std::mutex mutex_;
     mutable std::optional<Ahead> ahead_;
-    mutable std::future<FrameSet> given_up_;  ///< nothing is decoded ahead until it is done
+    mutable std::future<FrameSet> given_up_;  ///< discarded; nothing is decoded ahead until its end
     mutable std::ptrdiff_t last_place_ = 0, last_stride_ = 0;
 };
 
-/// What stands for the receiver where a take is played: its rigs, and nothing that arrives.
+/// A feed that replaces the receiver when a take is played: its rigs, and no new frames.
 StageFeed feed_of(const TakeReader& take);
 
 }  // namespace vantage

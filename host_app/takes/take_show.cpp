@@ -1,8 +1,11 @@
 #include "host_app/takes/take_show.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/colour/colour_file.h"
 
 namespace vantage {
@@ -51,7 +54,7 @@ nlohmann::ordered_json to_json(const TakeShow& show) {
 }
 
 TakeShow take_show_from(const nlohmann::ordered_json& json) {
-    // A rig's own take knows of no show.
+    // A rig's own recording has no show.
     if (!json.contains("view")) return {};
     try {
         TakeShow show;
@@ -80,7 +83,37 @@ TakeShow take_show_from(const nlohmann::ordered_json& json) {
         }
         return show;
     } catch (const nlohmann::json::exception&) {
-        fail("its take.json does not tell of the show as Vantage does");
+        fail("its take.json has no valid description of the show");
+    }
+}
+
+FlightHabits habits_of(const StageConfig::Flight& flight) {
+    constexpr double rad = std::numbers::pi / 180;
+    FlightHabits habits;
+    habits.holds_horizon = flight.holds_horizon;
+    habits.shot_s = flight.shot_s;
+    habits.keyframe_gap_s = flight.keyframe_s;
+    habits.max_turn_rad_s = rad * flight.max_turn_deg_s;
+    habits.max_zoom_rad_s = rad * flight.max_zoom_deg_s;
+    habits.max_speed_m_s = flight.max_speed_m_s;
+    habits.ramp_s = flight.ramp_s;
+    habits.follow_s = flight.smoothing_s;
+    return habits;
+}
+
+FlightHabits habits_of(const TakeReader& take) {
+    const std::vector<TakeAttachment>& attachments = take.facts().attachments;
+    const auto stage = std::find_if(
+        attachments.begin(), attachments.end(),
+        [](const TakeAttachment& attachment) { return attachment.name == stage_attachment; });
+    if (stage == attachments.end()) return {};
+    try {
+        return habits_of(stage_flight_from(
+            {reinterpret_cast<const char*>(stage->bytes.data()), stage->bytes.size()},
+            take.path() / stage_attachment));
+    } catch (const Error& error) {
+        log_warning("using the default flight settings instead of the take's: {}", error.what());
+        return {};
     }
 }
 

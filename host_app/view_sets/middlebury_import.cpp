@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 constexpr std::size_t max_calibration_bytes = std::size_t{1} << 16;
 constexpr int most_pictures = 9;
 
-/// Cameras in a row: view k stands k steps to the right of view 0.
+/// Cameras in a row: view k is k steps to the right of view 0.
 struct Row {
-    std::string prefix;  ///< of the pictures' names
+    std::string prefix;  ///< of the image file names
     double f_px = 0, step_m = 0;
     double doffs_a_step_px = 0;
-    std::map<int, int> other;  ///< of every view with disparity, the view that it is measured to
+    std::map<int, int> other;  ///< per view with disparity: the view that it refers to
     double scale = 1;          ///< file value * scale = px
 };
 
@@ -54,7 +54,7 @@ ImportedViews write_row(const fs::path& folder, const fs::path& view_set, const 
         writer.add_disparity({map, row.scale, 0, row.step_m * steps, row.doffs_a_step_px * steps});
     }
     if (writer.with_geometry() == 0)
-        fail("{} has no disparity map of its pictures; take the files with ground truth",
+        fail("{} has no disparity map of its images; use the files with ground truth",
              folder.string());
     writer.finish();
     return {writer.views(), writer.with_geometry()};
@@ -70,7 +70,7 @@ std::string value_of(const std::string& text, const std::string& key, const fs::
 double number_of(const std::string& text, const std::string& key, const fs::path& file) {
     double value = 0;
     if (std::sscanf(value_of(text, key, file).c_str(), "%lf", &value) != 1 || !std::isfinite(value))
-        fail("{}: '{}' is no number", file.string(), key);
+        fail("{}: '{}' is not a number", file.string(), key);
     return value;
 }
 
@@ -88,13 +88,13 @@ ImportedViews import_calibrated_pair(const fs::path& folder, const fs::path& vie
         if (std::sscanf(value_of(text, key, file).c_str(), " [%lf %*f %lf; %*f %lf %lf", &fx, &cx,
                         &fy, &cy) != 4 ||
             !(fx > 0) || !(fy > 0))
-            fail("{}: '{}' is no camera matrix [f 0 cx; 0 f cy; 0 0 1]", file.string(), key);
+            fail("{}: '{}' is not a camera matrix [f 0 cx; 0 f cy; 0 0 1]", file.string(), key);
         ViewSetWriter::Camera camera;
         camera.name = fmt::format("im{}", k);
         camera.K << fx, 0, cx, 0, fy, cy, 0, 0, 1;
         camera.world_from_camera.translation().x() = baseline_m * k;
         const fs::path picture = there(folder, camera.name);
-        if (picture.empty()) fail("{} has no picture {}", folder.string(), camera.name);
+        if (picture.empty()) fail("{} has no image {}", folder.string(), camera.name);
         writer.begin_view(camera, picture);
         for (const char* suffix : {"GT.pfm", ".pfm"}) {
             const fs::path map = folder / fmt::format("disp{}{}", k, suffix);
@@ -104,14 +104,14 @@ ImportedViews import_calibrated_pair(const fs::path& folder, const fs::path& vie
         }
     }
     if (writer.with_geometry() == 0)
-        fail("{} has no disp0GT.pfm or disp0.pfm; take the files with ground truth",
+        fail("{} has no disp0GT.pfm or disp0.pfm; use the files with ground truth",
              folder.string());
     writer.finish();
     return {writer.views(), writer.with_geometry()};
 }
 
-/// 2005 and 2006: f = 3740 px and 40 mm a step at full size, disparities in full-size pixels,
-/// dmin.txt the offset that cropping took away.
+/// 2005 and 2006: f = 3740 px and 40 mm per step at full size, disparities in full-size pixels;
+/// dmin.txt has the offset that cropping removed.
 Row row_of_2006(const fs::path& folder) {
     constexpr double full_height_px = 1110;
     const double size = std::round(full_height_px / read_colour_image(there(folder, "view1")).rows);
@@ -119,13 +119,13 @@ Row row_of_2006(const fs::path& folder) {
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     double offset_px = 0;
     if (size < 1 || std::sscanf(text.c_str(), "%lf", &offset_px) != 1)
-        fail("{}: dmin.txt holds no number, or the pictures are larger than the data set's",
+        fail("{}: dmin.txt has no number, or the images are larger than the data set's",
              folder.string());
     return {"view", 3740 / size, 0.04, offset_px / 4 / size, {{1, 5}, {5, 1}}, 1 / size};
 }
 
-/// 2003 at any of its three sizes, with the cameras that the third evaluation gives for Teddy; 2001
-/// with nominal ones.
+/// 2003 at its three sizes, with the cameras that the third evaluation states for Teddy; 2001 with
+/// nominal ones.
 Row row_of_nine(const fs::path& folder) {
     constexpr int quarter_width_px = 450;
     const int width_px = read_colour_image(there(folder, "im2")).cols;
@@ -147,7 +147,8 @@ ImportedViews import_middlebury(const fs::path& folder, const fs::path& view_set
         return write_row(folder, view_set, {"im", f_px, 0.1, 0, {{3, 4}}, 1 / 16.0});
     }
     fail(
-        "{} is no Middlebury scene: it has neither calib.txt, nor view1 with dmin.txt, nor im2 or "
+        "{} is not a Middlebury scene: it has neither calib.txt, nor view1 with dmin.txt, nor im2 "
+        "or "
         "im3",
         folder.string());
 }

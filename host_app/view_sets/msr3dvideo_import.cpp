@@ -36,7 +36,7 @@ fs::path parameter_file(const fs::path& folder) {
     fail("{} has no calibParams-*.txt; give the folder of one sequence", folder.string());
 }
 
-/// Each camera: its number, K (9), two distortion terms, [R | t] (12).
+/// Each camera has its number, K (9), two distortion terms and [R | t] (12).
 std::vector<MsrCamera> read_cameras(const fs::path& file) {
     const std::vector<std::byte> bytes = read_file(file, max_parameter_bytes);
     std::istringstream text(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
@@ -49,11 +49,11 @@ std::vector<MsrCamera> read_cameras(const fs::path& file) {
         for (int i = 0; i < 12; ++i) text >> camera.camera_from_world(i / 4, i % 4);
         if (!text || camera.number < 0 || camera.number >= max_cameras || !(camera.K(0, 0) > 0) ||
             !(camera.K(1, 1) > 0) || camera.K.row(2) != Eigen::RowVector3d(0, 0, 1))
-            fail("{}: the parameters of camera {} are cut off or no camera's; fetch it again",
+            fail("{}: the parameters of camera {} are truncated or invalid; download it again",
                  file.string(), camera.number);
         cameras.push_back(camera);
     }
-    if (cameras.empty()) fail("{} holds no camera; fetch it again", file.string());
+    if (cameras.empty()) fail("{} has no camera; download it again", file.string());
     return cameras;
 }
 
@@ -61,7 +61,7 @@ std::pair<double, double> known_depth_range(const fs::path& parameters) {
     const std::string name = parameters.filename().string();
     if (name.find("ballet") != std::string::npos) return {42, 130};
     if (name.find("breakdancers") != std::string::npos) return {44, 120};
-    fail("{}: the depth range of this sequence is not known; give it with --depth-range",
+    fail("{}: the depth range of this sequence is unknown; give it with --depth-range",
          parameters.string());
 }
 
@@ -86,7 +86,7 @@ bool has_pictures(const fs::path& folder, const std::vector<MsrCamera>& cameras,
     });
 }
 
-/// Of a camera whose picture is there too.
+/// Whether a camera has an image and a depth map of the instant.
 bool has_depth(const fs::path& folder, const std::vector<MsrCamera>& cameras, int instant) {
     return std::any_of(cameras.begin(), cameras.end(), [&](const MsrCamera& camera) {
         return !picture_of(folder, camera.number, instant).empty() &&
@@ -94,7 +94,7 @@ bool has_depth(const fs::path& folder, const std::vector<MsrCamera>& cameras, in
     });
 }
 
-/// The first instant from which views can be rendered, or, if there is none, that has pictures.
+/// The first instant with depth, or, if there is none, with images.
 std::optional<int> first_instant(const fs::path& folder, const std::vector<MsrCamera>& cameras) {
     for (const auto& is_there : {has_depth, has_pictures})
         for (int instant = 0; instant < max_instants; ++instant)
@@ -102,7 +102,7 @@ std::optional<int> first_instant(const fs::path& folder, const std::vector<MsrCa
     return {};
 }
 
-/// With rows counted from the top, and a world whose y axis is turned round in turn.
+/// Converts to rows counted from the top, in a world with inverted y axis.
 ViewSetWriter::Camera upright(const MsrCamera& camera, int height_px) {
     ViewSetWriter::Camera result;
     result.name = fmt::format("cam{}", camera.number);
@@ -121,7 +121,7 @@ ViewSetWriter::Camera upright(const MsrCamera& camera, int height_px) {
     return result;
 }
 
-/// Codes to depth along the camera's own axis. The codes say the world's z.
+/// Converts codes to depth along the camera's own axis. The codes are the world's z.
 DepthImage depth_of(const cv::Mat1w& codes, const ViewSetWriter::Camera& camera,
                     std::pair<double, double> range) {
     const Eigen::Matrix3d world_ray_from_pixel =
@@ -150,14 +150,14 @@ ImportedViews import_msr3dvideo(const fs::path& folder, const fs::path& view_set
     if (!instant) fail("{} has no camN/color-camN-fTTT.jpg of any camera", folder.string());
     const auto range = depth_range ? *depth_range : known_depth_range(parameters);
     if (!(range.first > 0) || !(range.second > range.first))
-        fail("a depth range from {} to {} is none; give the nearer depth, above 0, first",
+        fail("the depth range from {} to {} is invalid; give the nearer depth, above 0, first",
              range.first, range.second);
     if (!has_pictures(folder, cameras, *instant))
-        fail("{} has no picture of instant {}", folder.string(), *instant);
+        fail("{} has no image of instant {}", folder.string(), *instant);
     if (!has_depth(folder, cameras, *instant))
         fail(
-            "{} has no depth map camN/depth-camN-f{:03}.png beside its pictures, and nothing can "
-            "be rendered from views without depth: fetch the depth maps of the sequence too",
+            "{} has no depth map camN/depth-camN-f{:03}.png beside its images, and views cannot be "
+            "rendered without depth: download the depth maps of the sequence, too",
             folder.string(), *instant);
 
     ViewSetWriter writer(view_set);

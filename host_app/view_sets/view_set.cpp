@@ -24,7 +24,7 @@ constexpr std::size_t max_json_bytes = std::size_t{16} << 20;
 constexpr std::size_t max_views = 256;
 constexpr double max_rotation_error = 1e-3;
 
-/// One JSON object with the words that tell a person which one it is.
+/// A JSON object and its place for error messages.
 struct Entry {
     const json& object;
     std::string where;  ///< "FILE, view 'NAME'"
@@ -107,7 +107,7 @@ struct Entry {
     void warn_of_unknown_keys(const std::set<std::string>& known) const {
         for (const auto& [key, value] : object.items())
             if (!known.contains(key))
-                log_warning("{}: the key '{}' means nothing here", where, key);
+                log_warning("{}: the key '{}' is unknown and ignored", where, key);
     }
 };
 
@@ -118,7 +118,7 @@ json parse_json(const std::filesystem::path& path) {
     } catch (const json::parse_error& error) {
         fail("{} is not JSON (near byte {}); correct it there", path.string(), error.byte);
     } catch (const json::out_of_range&) {
-        fail("{} holds a number beyond what a double can hold", path.string());
+        fail("{} has a number beyond the range of a double", path.string());
     }
     if (!document.is_object()) fail("{} must hold one JSON object", path.string());
     return document;
@@ -134,12 +134,12 @@ json parse_toml(const std::filesystem::path& path) {
         fail("{} is not TOML (line {}): {}", path.string(), error.source().begin.line,
              error.description());
     } catch (const json::exception&) {
-        fail("{} holds a number that is not finite", path.string());
+        fail("{} has a number that is not finite", path.string());
     }
 }
 
-/// File values as float; 0 and what is not finite or equals `unknown` come out as NaN where they
-/// mean unknown.
+/// File values as float; unknown ones (0, not finite, or equal to `unknown`, depending on the file)
+/// become NaN.
 cv::Mat1f read_map(const std::filesystem::path& path, const Entry& entry, bool is_pfm) {
     const float nothing = std::numeric_limits<float>::quiet_NaN();
     cv::Mat1f map;
@@ -161,17 +161,17 @@ DepthImage read_depth(const Entry& entry, const std::filesystem::path& folder,
     const std::filesystem::path path = folder / entry.text(key);
     const bool is_pfm = path.extension() == ".pfm" || path.extension() == ".PFM";
     const double scale = is_pfm ? entry.number("scale", 1) : entry.number("scale");
-    if (scale <= 0) fail("{}: 'scale' is {}; it must be above 0", entry.where, scale);
+    if (scale <= 0) fail("{}: 'scale' is {}, but must be above 0", entry.where, scale);
     cv::Mat1f map = read_map(path, entry, is_pfm);
     if (map.cols > PiLimits::max_image_side_px || map.rows > PiLimits::max_image_side_px)
-        fail("{}: {} is {}x{}; maps up to {} pixels a side are taken", entry.where, path.string(),
+        fail("{}: {} is {}x{}; the largest side of a map is {} pixels", entry.where, path.string(),
              map.cols, map.rows, PiLimits::max_image_side_px);
     const double aspect = static_cast<double>(map.cols) / map.rows * view.colour.rows /
                           static_cast<double>(view.colour.cols);
     if (aspect < 0.97 || aspect > 1.03)
         fail(
-            "{}: {} is {}x{} and the picture {}x{}; give a map of the picture's size or of the "
-            "same field of view",
+            "{}: {} is {}x{} and the image {}x{}; give a map of the image's size or with the same "
+            "field of view",
             entry.where, path.string(), map.cols, map.rows, view.colour.cols, view.colour.rows);
     const double f_baseline = view.K(0, 0) * view.baseline_m;
     DepthImage depth_m(map.size());
@@ -196,14 +196,14 @@ DepthView read_view(const Entry& entry, const std::filesystem::path& folder) {
     view.doffs_px = entry.number("doffs_px", 0);
     view.baseline_m = entry.number("baseline_m", 0);
     if (entry.has("disparity") && entry.number("baseline_m") <= 0)
-        fail("{}: 'baseline_m' is {}; with 'disparity' it must be above 0", entry.where,
+        fail("{}: 'baseline_m' is {}, but with 'disparity' it must be above 0", entry.where,
              view.baseline_m);
     try {
         const std::filesystem::path picture = folder / entry.text("image");
         view.colour = read_colour_image(picture);
         if (view.colour.cols > PiLimits::max_image_side_px ||
             view.colour.rows > PiLimits::max_image_side_px)
-            fail("{} is {}x{}; pictures up to {} pixels a side are taken", picture.string(),
+            fail("{} is {}x{}; the largest side of an image is {} pixels", picture.string(),
                  view.colour.cols, view.colour.rows, PiLimits::max_image_side_px);
         if (entry.has("disparity") || entry.has("depth"))
             view.depth_m = read_depth(entry, folder, view);
@@ -232,7 +232,8 @@ ViewSet load_view_set(const std::filesystem::path& folder) {
     const Entry top{document, path.string()};
     const json& version = top.at("version");
     if (!version.is_number_integer() || version.get<std::int64_t>() != 1)
-        fail("{}: 'version' is {}; this program reads version 1", path.string(), version.dump());
+        fail("{}: 'version' is {}, but this program reads version 1", path.string(),
+             version.dump());
     top.warn_of_unknown_keys({"version", "views"});
     const json& entries = top.at("views");
     if (!entries.is_array() || entries.empty() || entries.size() > max_views)

@@ -10,8 +10,8 @@
 
 namespace vantage {
 
-/// Pictures of one instant from calibrated cameras, some with geometry: what a folder with a
-/// views.json holds. The file is
+/// Images of one instant from calibrated cameras, some with depth: a folder with a views.json in
+/// this form:
 ///
 ///   {"version": 1, "views": [{
 ///     "name": "left",                 unique
@@ -19,27 +19,27 @@ namespace vantage {
 ///     "K": [[fx,s,cx],[0,fy,cy],[0,0,1]],               of the picture, px
 ///     "world_from_camera": [[..4],[..4],[..4]],         rigid, metres
 ///     "disparity": "left.pfm"         or "depth": "left.png"; neither: no geometry
-///     "scale": 0.25,                  file value * scale = px of the picture, or metres; may be
-///                                     left out for PFM
-///     "unknown": 0,                   file value that means unknown; PFM: not finite is unknown
+///     "scale": 0.25,                  file value * scale = px of the image, or metres; optional
+///                                     for PFM
+///     "unknown": 0,                   file value for unknown; PFM: not finite is unknown
 ///     "baseline_m": 0.1,              with disparity
 ///     "doffs_px": 52                  with disparity, 0 if left out: z = fx * baseline / (d +
 ///   }]}                               doffs)
 ///
-/// A disparity or depth map of another size than its picture has the same field of view.
+/// A disparity or depth map of another size than its image has the same field of view.
 struct ViewSet {
     std::vector<DepthView> views;
 
-    /// Throws Error that lists the names there are.
+    /// Throws Error with the known names.
     std::size_t index_of(std::string_view name) const;
 };
 
-/// Throws Error naming the file, the view and the key for everything that is missing, of the wrong
-/// type or impossible; keys that mean nothing here are logged and passed over.
+/// Throws Error naming the file, the view and the key for missing or invalid values. Unknown keys
+/// are logged and ignored.
 ViewSet load_view_set(const std::filesystem::path& folder);
 
-/// A camera for `vantage render --pose`: JSON or TOML (by extension) with the keys width, height, K
-/// and world_from_camera, in the form they have in views.json. Throws Error likewise.
+/// Loads a camera for `vantage render --pose`: JSON or TOML (by extension) with the keys width,
+/// height, K and world_from_camera in the form of views.json. Throws Error likewise.
 VirtualView load_virtual_view(const std::filesystem::path& file);
 
 }  // namespace vantage

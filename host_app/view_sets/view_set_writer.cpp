@@ -23,7 +23,7 @@ nlohmann::ordered_json rows_of(const Matrix& matrix) {
 
 ViewSetWriter::ViewSetWriter(std::filesystem::path folder) : folder_(std::move(folder)) {
     if (std::filesystem::exists(folder_ / "views.json"))
-        fail("{} holds a view set already; give a new folder", folder_.string());
+        fail("{} contains a view set already; give a new folder", folder_.string());
     make_folder(folder_);
 }
 

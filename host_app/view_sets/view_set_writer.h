@@ -11,11 +11,11 @@
 
 namespace vantage {
 
-/// Writes a view set folder: pictures and maps first, views.json last, so that a folder with a
-/// views.json is whole.
+/// Writes a view set folder: images and maps first, views.json last, so that a folder with a
+/// views.json is complete. Not thread-safe.
 class ViewSetWriter {
   public:
-    /// Creates the folder. Throws Error if it cannot, or if a view set is there already.
+    /// Creates the folder. Throws Error if that fails, or if it contains a view set.
     explicit ViewSetWriter(std::filesystem::path folder);
 
     struct Camera {
@@ -23,17 +23,17 @@ class ViewSetWriter {
         Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
         Pose world_from_camera = Pose::Identity();
     };
-    /// A view with a copy of its picture; maps are added to the view that was begun last.
+    /// Begins a view with a copy of its image; maps are added to the last view.
     void begin_view(const Camera& camera, const std::filesystem::path& picture);
     struct Disparity {
-        std::filesystem::path file;  ///< copied
+        std::filesystem::path file;  ///< to be copied
         std::optional<double> scale, unknown;
         double baseline_m = 0, doffs_px = 0;
     };
     void add_disparity(const Disparity& disparity);
     void add_depth(const DepthImage& depth_m);
 
-    /// Writes views.json. Throws Error if it cannot.
+    /// Writes views.json. Throws Error if that fails.
     void finish();
     int views() const { return static_cast<int>(document_["views"].size()); }
     int with_geometry() const { return with_geometry_; }

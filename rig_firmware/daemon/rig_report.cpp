@@ -9,7 +9,6 @@
 
 #include "common/base/child_process.h"
 #include "common/base/cli/version.h"
-#include "common/base/computer.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/secrets.h"

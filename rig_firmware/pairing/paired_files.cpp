@@ -10,7 +10,6 @@
 #include "common/base/files/atomic_file.h"
 #include "common/config/endpoint.h"
 #include "common/config/toml_edit.h"
-#include "common/config/toml_text.h"
 
 namespace vantage {
 namespace {

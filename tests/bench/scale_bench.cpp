@@ -111,7 +111,7 @@ Result measure(const ScaleRigs& wanted, const Case& how) {
         StageReceiver host(stage, StageReceiver::Purpose::film,
                            [&](const ArrivedFrame& frame) { recorder.offer(frame); });
         for (std::size_t i = 0; i < stage.rigs.size(); ++i)
-            host.look_at(stage.rigs[i].name,
+            host.set_decoded(stage.rigs[i].name,
                          how.looked_at < 0 || i < static_cast<std::size_t>(how.looked_at));
         const auto came = [&] {
             const ReceiverStatus status = host.status();
@@ -190,7 +190,7 @@ std::string measure_relay(ScaleRigs wanted) {
             behind.push_back(
                 std::make_unique<StageReceiver>(load_stage_config(folder.file("behind.toml"))));
             for (int rig = 0; rig < wanted.rigs; ++rig)
-                behind.back()->look_at(fmt::format("rig{:02}", rig), false);
+                behind.back()->set_decoded(fmt::format("rig{:02}", rig), false);
         }
         wait_for(folder.file("relay.json"), relay);
         const nlohmann::json at_rigs = json_of(folder.file("rigs.json")),

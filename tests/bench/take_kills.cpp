@@ -139,7 +139,7 @@ std::string fault_of(const TakeReader& take, std::uint64_t seed, const Sent& sen
     if (named != expected_gaps(seed, take)) return "check names other gaps than were made";
     tally.gaps += named.size();
     for (const TakeDamage& damage : verdict.damage)
-        if (damage.words.find("are cut off") == std::string::npos) return damage.words;
+        if (damage.words.find("are truncated") == std::string::npos) return damage.words;
     tally.cut_block += !verdict.damage.empty();
     std::uint64_t frames = 0;
     for (std::size_t rig = 0; rig < rigs.size(); ++rig) {

@@ -161,8 +161,8 @@ TEST_F(PeerFaults, GarbageIsLeftAlone) {
     }
     beat(beats_beside);
     nothing_was_noticed();
-    is_in_the_log("says what no host says");
-    is_in_the_log("comes without a key");
+    is_in_the_log("does not speak Vantage's protocol");
+    is_in_the_log("connected without a key");
     EXPECT_EQ(rig_->status().refused_connections, 20u);
 }
 
@@ -182,9 +182,9 @@ TEST_F(PeerFaults, AThousandConnectionsThatSayNothingAreServedAround) {
     beat(beats_beside);
     nothing_was_noticed();
     // Who is welcome still comes in.
-    const StageReceiver second(stage_at(rig_->endpoint()), StageReceiver::Purpose::look_on);
+    const StageReceiver second(stage_at(rig_->endpoint()), StageReceiver::Purpose::observe);
     EXPECT_TRUE(eventually([&] { return second.status().rigs[0].connected; }));
-    is_in_the_log("from 127.0.0.1, had not greeted as hosts do after 5 s");
+    is_in_the_log("from 127.0.0.1, did not finish the handshake within 5 s");
     EXPECT_TRUE(eventually([&] { return rig_->status().refused_connections == 1000; }));
     EXPECT_TRUE(
         eventually([&] { return host_->status().rigs[0].health.refused_connections == 1000; }));
@@ -199,7 +199,7 @@ TEST_F(PeerFaults, ConnectionsThatComeAndGoAreServedAround) {
     }
     beat(beats_beside);
     nothing_was_noticed();
-    is_in_the_log("left before it had greeted");
+    is_in_the_log("closed the connection before the handshake");
     EXPECT_TRUE(eventually([&] { return rig_->status().refused_connections == 1000; }));
 }
 
@@ -223,8 +223,8 @@ TEST_F(PeerFaults, HandshakesWithoutKeyAndForgedOnesOpenNothing) {
         socket.connect(rig_->endpoint());
         forgers.push_back(std::move(socket));
     }
-    is_in_the_log("comes without a key");
-    is_in_the_log("does not hold this rig's public key, or repeats or forges a handshake");
+    is_in_the_log("connected without a key");
+    is_in_the_log("does not have this rig's public key, or repeated or forged a handshake");
     beat(beats_beside);
     nothing_was_noticed();
 }
@@ -243,7 +243,7 @@ TEST_F(PeerFaults, AFloodOfStrangersKeysIsRefusedAndSaidOnce) {
         socket.connect(rig_->endpoint());
         strangers.push_back(std::move(socket));
     }
-    const std::string refused = stranger_keys.public_key + " is refused";
+    const std::string refused = "with key " + stranger_keys.public_key;
     ASSERT_TRUE(eventually([&] { return log_lines_with(refused) > 0; }));
     beat(beats_beside);
     nothing_was_noticed();
@@ -253,7 +253,7 @@ TEST_F(PeerFaults, AFloodOfStrangersKeysIsRefusedAndSaidOnce) {
 TEST_F(PeerFaults, AHostThatFloodsIsAnsweredAFewTimesAndSaidOnce) {
     const std::string refused = "messages that are no host's were refused";
     const std::size_t lines_before = log_lines_with(refused);
-    // It holds a key that is authorized, and says what no host says.
+    // It holds a key that is authorized, and does not speak Vantage's protocol.
     zmq::context_t context;
     zmq::socket_t socket(context, zmq::socket_type::dealer);
     socket.set(zmq::sockopt::linger, 0);
@@ -279,7 +279,7 @@ TEST_F(PeerFaults, AReplayedHandshakeOpensNothing) {
     const UniqueFd road = listening_socket(road_place);
     auto second = std::make_unique<StageReceiver>(
         stage_at(fmt::format("tcp://127.0.0.1:{}", ntohs(road_place.sin_port))),
-        StageReceiver::Purpose::look_on);
+        StageReceiver::Purpose::observe);
     const UniqueFd to_host(::accept(road.get(), nullptr, nullptr)), to_rig = connected_socket();
     ASSERT_TRUE(to_host && to_rig);
     std::vector<char> written_down;
@@ -320,7 +320,7 @@ TEST_F(PeerFaults, AReplayedHandshakeOpensNothing) {
     EXPECT_EQ(rig_->status().hosts.size(), 2u) << "no third came in";
     EXPECT_EQ(rig_->status().hosts[1].counters.sent, 0u);
     EXPECT_EQ(rig_->status().malformed, 0u);
-    is_in_the_log("does not hold this rig's public key, or repeats or forges a handshake");
+    is_in_the_log("does not have this rig's public key, or repeated or forged a handshake");
     const RigStatus status = host_->status().rigs[0];
     EXPECT_EQ(status.received, beats_);
     EXPECT_EQ(status.lost + status.link.send_dropped, 0u);
@@ -357,7 +357,7 @@ TEST_F(PeerFaults, ASlowReaderLosesItsOwnFramesOnly) {
     EXPECT_GT(other.counters.send_dropped, 0u);
     EXPECT_EQ(other.counters.offered,
               other.counters.sent + other.counters.send_dropped + other.queued);
-    is_in_the_log("hosts were too slow to take");
+    is_in_the_log("hosts were too slow");
 }
 
 }  // namespace

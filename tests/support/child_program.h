@@ -10,29 +10,29 @@
 namespace vantage {
 
 struct ProgramResult {
-    int status = -1;  ///< exit status; 128 + n where signal n ended it
+    int status = -1;  ///< exit status; 128 + n if signal n ended it
     std::string out, err;
 };
 
-/// A program of ours run as a user runs it: another process, its output in files of a folder that
+/// Runs a program as a user does: as a child process, with its output in files of a folder that
 /// outlives it.
 class ChildProgram {
   public:
-    /// `environment`: "NAME=VALUE" on top of this process's own. Throws Error if it cannot be
+    /// `environment`: "NAME=VALUE", added to this process's. Throws Error if the program cannot be
     /// started.
     ChildProgram(const std::filesystem::path& program, const std::vector<std::string>& arguments,
                  const std::filesystem::path& folder,
                  const std::vector<std::string>& environment = {});
-    /// Kills it if it still runs.
+    /// Kills the process if it is still running.
     ~ChildProgram();
 
     void send_signal(int signal) const { process_.send_signal(signal); }
-    /// What it wrote so far.
+    /// The output so far.
     std::string out() const;
     std::string err() const;
-    /// Waits for its end.
+    /// Waits for the end.
     ProgramResult wait();
-    /// As wait()'s status, if it has ended.
+    /// The status as from wait(), if the process has ended.
     std::optional<int> ended() { return process_.ended(); }
 
   private:

@@ -10,8 +10,8 @@
 
 namespace vantage {
 
-/// Sound that is silent but for a click at the beginning of every second from the first on: a
-/// millisecond, louder from click to click on the left, and always the same on the right.
+/// Silence with a click of one millisecond at every full second from the first: of increasing level
+/// on the left, of constant level on the right.
 inline std::vector<float> clicks(double duration_s) {
     const auto count = static_cast<std::size_t>(duration_s * sound_rate_hz);
     std::vector<float> samples(count * sound_channels);
@@ -24,7 +24,7 @@ inline std::vector<float> clicks(double duration_s) {
     return samples;
 }
 
-/// Where sound that was silent becomes loud; samples.
+/// The samples at which silence ends.
 inline std::vector<std::int64_t> found_clicks(std::span<const float> samples) {
     std::vector<std::int64_t> found;
     constexpr float loud = 0.15F;
@@ -37,7 +37,7 @@ inline std::vector<std::int64_t> found_clicks(std::span<const float> samples) {
     return found;
 }
 
-/// A WAV file of 16 bits.
+/// Writes a 16-bit WAV file.
 inline void write_wav(const std::filesystem::path& path, std::span<const float> samples,
                       int rate_hz = sound_rate_hz) {
     std::ofstream out(path, std::ios::binary);

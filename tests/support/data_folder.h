@@ -7,11 +7,11 @@
 
 namespace vantage {
 
-/// The folder with real stereo data: $VANTAGE_DATA, else shared/data beside the checkout; empty
-/// where there is none.
+/// The folder with real stereo data: $VANTAGE_DATA, or shared/data beside the checkout; empty if
+/// there is none.
 std::optional<std::filesystem::path> data_folder();
 
-/// A fresh folder of this test, removed at destruction.
+/// A new folder for a test, removed at destruction.
 class TemporaryFolder {
   public:
     TemporaryFolder();
@@ -26,7 +26,7 @@ class TemporaryFolder {
 
 }  // namespace vantage
 
-/// At the top of a test that needs real data: skips, with the reason, where there is none.
+/// For the top of a test that needs real data: skips it with the reason if there is none.
 #define VANTAGE_REQUIRE_DATA(variable)                                                          \
     const auto variable##_optional = ::vantage::data_folder();                                  \
     if (!variable##_optional)                                                                   \

@@ -8,8 +8,8 @@
 
 namespace vantage {
 
-/// The mean over the mask's pixels and over colours of the standard deviation along time, grey
-/// levels; pictures of one size, two at least.
+/// The mean over the mask's pixels and colours of the standard deviation over time in grey levels.
+/// Precondition: at least two images of one size.
 inline double deviation_along_time(std::span<const ColourImage> pictures, const cv::Mat1b& mask) {
     cv::Mat sum = cv::Mat::zeros(mask.size(), CV_64FC4), squares = sum.clone();
     for (const ColourImage& picture : pictures) {

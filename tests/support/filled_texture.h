@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-/// A texture that holds a picture, to be given to a pass. Precondition: a context is current.
+/// A texture with the content of an image. Precondition: a context is current.
 inline Texture filled_texture(TextureFormat format, const cv::Mat& picture,
                               Filter filter = Filter::nearest) {
     Texture texture(format, picture.cols, picture.rows, filter);

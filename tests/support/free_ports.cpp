@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-/// A socket that holds a port of loopback without listening there.
+/// A socket that reserves a loopback port without listening.
 UniqueFd holding(int& port) {
     UniqueFd held(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
     sockaddr_in address{};
@@ -20,7 +20,7 @@ UniqueFd holding(int& port) {
     socklen_t size = sizeof address;
     auto* plain = reinterpret_cast<sockaddr*>(&address);
     const int shared = 1;
-    // Only after the port is chosen: chosen it is of those that no other test holds.
+    // Only after the port is chosen, so that it is not one that another test has reserved.
     if (!held || bind(held.get(), plain, size) != 0 || getsockname(held.get(), plain, &size) != 0 ||
         setsockopt(held.get(), SOL_SOCKET, SO_REUSEADDR, &shared, sizeof shared) != 0)
         fail("no free port on loopback");

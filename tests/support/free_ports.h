@@ -4,8 +4,8 @@
 
 namespace vantage {
 
-/// Two ports of loopback that nobody listens on, and that the system gives to nobody else as long
-/// as this process lives: who asks for one of them by its number can listen there.
+/// Two loopback ports without listeners, reserved while this process lives: the system gives them
+/// to no other program, but a program that asks for their number can listen there.
 std::pair<int, int> two_free_ports();
 
 }  // namespace vantage

@@ -6,8 +6,7 @@
 
 namespace vantage {
 
-/// While it lives, files of this process and of those that it starts stop to grow at so many bytes,
-/// as they do on a full disk.
+/// Limits the size of files of this process and its children during its life, like a full disk.
 class FullDisk {
   public:
     explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

@@ -13,14 +13,14 @@
 // After the version that it extends.
 #include <GLES2/gl2ext.h>
 
-// Stands before the drivers' libraries: in a test that asks for reset_gpu(), or preloaded.
+// Interposes on the drivers' libraries: linked into a test that uses reset_gpu(), or preloaded.
 
 namespace vantage {
 namespace {
 
 std::atomic<std::uint64_t> contexts_made = 0, contexts_lost = 0;
 
-/// In the order in which they were made, from 1 on.
+/// In the order of creation, from 1.
 struct Contexts {
     std::mutex mutex;
     std::map<EGLContext, std::uint64_t> numbers;

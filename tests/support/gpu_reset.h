@@ -2,8 +2,8 @@
 
 namespace vantage {
 
-/// A GPU that is reset, as far as a program can tell: every context that there is says so from now
-/// on, if it was made to, and draws nothing any more. Contexts that are made later are well.
+/// Simulates a GPU reset for this program: all existing robust contexts report it from now on and
+/// draw nothing. Contexts created later work.
 void reset_gpu();
 
 }  // namespace vantage

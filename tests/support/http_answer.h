@@ -4,9 +4,9 @@
 
 namespace vantage {
 
-/// What a server of this computer answers to these bytes, until it closes; empty: nobody listens.
+/// A local server's answer to these bytes, until it closes the connection; empty: no server.
 std::string http_answer(int port, const std::string& request);
-/// To a request that asks it to close then.
+/// The answer to a request that asks the server to close the connection.
 std::string http_answer(int port, const std::string& method, const std::string& path);
 
 }  // namespace vantage

@@ -64,7 +64,7 @@ UniqueFd from_heap(std::size_t bytes) {
     return UniqueFd(static_cast<int>(request.fd));
 }
 
-/// A dumb buffer; it lives on in its dma-buf when the handle on it is let go.
+/// A dumb buffer; its memory stays in its dma-buf when the handle is closed.
 UniqueFd from_gpu(std::size_t bytes) {
     constexpr std::uint32_t width_px = 1024, bits_per_pixel = 32;
     const auto height_px = static_cast<std::uint32_t>(bytes * 8 / (width_px * bits_per_pixel) + 1);

@@ -6,16 +6,16 @@
 
 namespace vantage {
 
-/// Memory that a test fills and that drivers share (a dma-buf), as a camera's buffer is.
+/// Memory that a test fills and shares with drivers (a dma-buf), like a camera's buffer.
 class SharedMemory {
   public:
-    /// From the kernel's udmabuf or its system heap, or else a plain buffer of a GPU; null where
-    /// this computer has, or gives this user, none of them.
+    /// From the kernel's udmabuf or system heap, or a plain buffer of a GPU; null if this computer
+    /// has none of them, or this user may not use them.
     static std::unique_ptr<SharedMemory> make(std::size_t bytes);
     virtual ~SharedMemory() = default;
 
     virtual int fd() const = 0;
-    /// At least as many as asked for.
+    /// At least the requested size.
     virtual std::span<std::byte> bytes() = 0;
 };
 

@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// The sentence of the Error that `action` throws; empty if it throws none. Other exceptions pass.
+/// The sentence of the Error that `action` throws; empty if none. Other exceptions pass through.
 template <class Action>
 std::string thrown_sentence(Action action) {
     try {

@@ -21,7 +21,7 @@ bool VirtualScreen::is_there() {
 }
 
 VirtualScreen::VirtualScreen(int width_px, int height_px) {
-    // It takes a number that is free and says which on its standard output.
+    // It chooses a free display number and prints it to its standard output.
     server_ = std::make_unique<ChildProgram>(
         server_program,
         std::vector<std::string>{"-displayfd", "1", "-nolisten", "tcp", "-screen", "0",

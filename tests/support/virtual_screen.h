@@ -9,21 +9,21 @@
 
 namespace vantage {
 
-/// An X screen of a test's own (Xvfb), with hands that move its mouse and press its keys (xdotool):
-/// what a program sees are real X events.
+/// An X display of a test's own (Xvfb), with simulated mouse and keyboard input (xdotool) that
+/// arrives as real X events.
 class VirtualScreen {
   public:
-    /// Throws Error if Xvfb does not come up.
+    /// Throws Error if Xvfb does not start.
     VirtualScreen(int width_px, int height_px);
 
-    /// Whether this computer has what it takes.
+    /// Whether this computer has the required programs.
     static bool is_there();
 
-    /// "DISPLAY=:7", for a program that is to show itself here.
+    /// "DISPLAY=:7", for the environment of a program.
     std::string environment() const { return "DISPLAY=" + display_; }
     const std::string& display() const { return display_; }
 
-    /// xdotool's commands, one after the other. Throws Error, with what it says, if one fails.
+    /// Runs xdotool commands in sequence. Throws Error with its output if one fails.
     void operator_input(const std::vector<std::string>& commands) const;
 
   private:

@@ -71,7 +71,7 @@ for cut in $(seq "$cuts"); do
   if ! damage=$(jq -r '.damage[] | .what' "$out/check.json") || [ ! -s "$out/check.json" ]; then
     why="the take does not open"
   else
-    [ -z "$(grep -v 'are cut off' <<<"$damage")" ] || why="damaged: $damage"
+    [ -z "$(grep -v 'are truncated' <<<"$damage")" ] || why="damaged: $damage"
     records "$out/cut/take.mkv" | sort >"$out/cut.txt"
     [ -z "$(comm -23 "$out/cut.txt" "$out/whole.txt")" ] || why="frames are not those of the whole take"
     # What had come by then and is not there; the clock was read when the image was whole.

@@ -8,7 +8,6 @@
 #include <malloc.h>
 
 #include "common/base/cli/command_documents.h"
-#include "common/base/cli/misfit_words.h"
 #include "common/base/cli/stop_signal.h"
 #include "common/base/cli/version.h"
 #include "common/base/error.h"
@@ -17,10 +16,10 @@
 namespace vantage {
 namespace {
 
-constexpr int words_do_not_fit = 2;
-constexpr int cannot_be_told = 3;
-/// 128 and the number of SIGINT, as shells say it.
-constexpr int interrupted = 130;
+constexpr int status_usage_error = 2;
+constexpr int status_undecided = 3;
+/// 128 plus the number of SIGINT, as shells report it.
+constexpr int status_interrupted = 130;
 
 std::string version_text(const ProgramFacts& facts) {
     std::string text = fmt::format("{} {}", facts.name, version());
@@ -30,7 +29,7 @@ std::string version_text(const ProgramFacts& facts) {
     return text;
 }
 
-/// The words after the program's name; `help a b` becomes `a b --help`.
+/// The arguments after the program's name. `help a b` becomes `a b --help`.
 std::vector<std::string> words_of(int argc, char** argv) {
     std::vector<std::string> words(argv + 1, argv + argc);
     if (!words.empty() && words[0] == "help") {
@@ -40,16 +39,17 @@ std::vector<std::string> words_of(int argc, char** argv) {
     return words;
 }
 
-/// Keeps memory flat where things come and go for hours. Threads, such as those that compile
-/// shaders, leave what they freed to the arena of their time, of which glibc has up to eight a
-/// processor. And once a large block was freed glibc takes blocks of its size from arenas too,
-/// where small ones that live on part them: pictures of encoders, of windows, of takes.
+/// Keeps memory use constant over hours of operation. Each thread leaves freed blocks in an arena
+/// of its own, and glibc creates up to eight arenas per processor. After a large block was freed,
+/// glibc also serves blocks of that size from arenas, where small long-lived blocks fragment them;
+/// encoders, windows and takes allocate frames of that size.
 void bound_heap(bool returns_large_blocks) {
     constexpr int arenas = 2, large_bytes = 1 << 20, kept_bytes = 16 << 20;
     mallopt(M_ARENA_MAX, arenas);
     if (!returns_large_blocks) return;
     mallopt(M_MMAP_THRESHOLD, large_bytes);
-    // glibc stops adapting this one too, and 128 KiB are gone and back with every picture.
+    // Setting a limit stops glibc from adapting it; at the default of 128 KiB the memory of
+    // every frame would go back to the system and be requested again.
     mallopt(M_TRIM_THRESHOLD, kept_bytes);
 }
 
@@ -75,25 +75,25 @@ int run_program(const ProgramFacts& facts, const std::vector<CommandEntry>& comm
         program.parse(std::vector<std::string>(words.rbegin(), words.rend()));
         std::cout.flush();
         if (!std::cout) fail("standard output could not be written");
-        return StopSignal::was_interrupted() ? interrupted : 0;
+        return StopSignal::was_interrupted() ? status_interrupted : 0;
     } catch (const CLI::CallForHelp& help) {
-        // The parser has help for a command before it looks whether there is one.
+        // CLI11 answers --help before it checks that the command exists.
         const std::string sentence = unknown_command_sentence(program, words);
         if (sentence.empty()) return program.exit(help);
         say_error(sentence);
-        return words_do_not_fit;
+        return status_usage_error;
     } catch (const CLI::Success& help_or_version) {
         return program.exit(help_or_version);
     } catch (const CLI::ParseError& error) {
         say_error(misfit_sentence(program, words, error.what()));
-        return words_do_not_fit;
+        return status_usage_error;
     } catch (const Undecided& error) {
         std::cout.flush();
         say_error(error.what());
-        return cannot_be_told;
+        return status_undecided;
     } catch (const std::exception& error) {
         say_error(error.what());
-        return StopSignal::was_interrupted() ? interrupted : 1;
+        return StopSignal::was_interrupted() ? status_interrupted : 1;
     }
 }
 

@@ -1,6 +1,7 @@
 #include "common/base/cli/command_documents.h"
 
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <vector>
 
@@ -8,12 +9,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "common/base/cli/command_tree.h"
+#include "common/base/cli/nearest_name.h"
 
 namespace vantage {
 namespace {
 
-/// The app and everything below it, with the words that lead there ("rigs status").
+/// Visits the app and every subcommand below it, with the command line that leads there ("rigs
+/// status").
 void visit(const CLI::App& app, const std::string& words,
            const std::function<void(const CLI::App&, const std::string&)>& action) {
     action(app, words);
@@ -22,7 +24,8 @@ void visit(const CLI::App& app, const std::string& words,
               action);
 }
 
-/// Plain text as roff takes it: nothing of it is a request, '-' stays a hyphen that can be typed.
+/// Escapes plain text for roff: no line is taken as a roff request, and '-' stays a hyphen that can
+/// be copied from the page.
 std::string roff(std::string_view text) {
     std::string escaped;
     for (const char c : text) {
@@ -55,7 +58,7 @@ std::string roff_options(const CLI::App& app) {
     return text;
 }
 
-/// The words that an option's type names in braces, "{auto,best}": what its value may be.
+/// The values that an option's type lists in braces: "{auto,best}".
 std::vector<std::string> words_of(const CLI::Option& option) {
     const std::string type = option.get_type_name();
     std::vector<std::string> words;
@@ -92,9 +95,9 @@ std::string man_page(const CLI::App& program, std::string_view version) {
         if (commands_of(app).empty()) text += roff_options(app);
     });
     return text +
-           ".SH EXIT STATUS\n0: done. 1: what a file, a device or the network caused, or what was "
-           "checked is bad, said in a sentence. 2: words that do not fit. 3: what was asked cannot "
-           "be told from what there is. 130: ended by Ctrl\\-C.\n";
+           ".SH EXIT STATUS\n0: success. 1: a file, a device or the network caused a fault, or a "
+           "check failed; a sentence says which. 2: the command line cannot be parsed. 3: the "
+           "input does not decide the question. 130: ended by Ctrl\\-C.\n";
 }
 
 std::string bash_completion(const CLI::App& program) {
@@ -142,6 +145,105 @@ std::string bash_completion(const CLI::App& program) {
 complete -o default -F {1} {0}
 )",
         name, function, places, words_of_places, values_of_options);
+}
+
+namespace {
+
+/// CLI11 keeps an option group as a subcommand without a name.
+bool is_group(const CLI::App* app) { return app->get_name().empty(); }
+
+}  // namespace
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+    return app.get_subcommands([](const CLI::App* command) { return !is_group(command); });
+}
+
+std::vector<const CLI::Option*> options_of(const CLI::App& app) {
+    std::vector<const CLI::Option*> options = app.get_options({});
+    for (const CLI::App* group : app.get_subcommands(is_group))
+        for (const CLI::Option* option : group->get_options({}))
+            if (option != group->get_help_ptr()) options.push_back(option);
+    return options;
+}
+
+namespace {
+
+std::vector<std::string> command_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : commands_of(app)) names.push_back(command->get_name());
+    return names;
+}
+
+std::vector<std::string> option_names(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : options_of(app))
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+/// The command that the arguments name.
+struct Place {
+    const CLI::App* command;
+    std::string name;            ///< "vantage rigs status"
+    std::string unknown;         ///< an argument where a command's name is expected
+    std::size_t words_used = 0;  ///< number of arguments up to the command's name
+};
+
+Place place_of(const CLI::App& program, const std::vector<std::string>& words) {
+    Place place{.command = &program, .name = program.get_name(), .unknown = ""};
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::vector<const CLI::App*> commands = commands_of(*place.command);
+        if (commands.empty()) break;
+        if (words[i].starts_with("-")) continue;
+        const auto found = std::find_if(commands.begin(), commands.end(), [&](const CLI::App* c) {
+            return c->get_name() == words[i];
+        });
+        if (found == commands.end()) {
+            place.unknown = words[i];
+            break;
+        }
+        place.command = *found;
+        place.name += " " + words[i];
+        place.words_used = i + 1;
+    }
+    return place;
+}
+
+/// The first argument that looks like an option and that the command does not have; empty if none.
+std::string unknown_option(const Place& place, const std::vector<std::string>& words) {
+    for (std::size_t i = place.words_used; i < words.size() && words[i] != "--"; ++i) {
+        if (words[i].size() < 2 || words[i][0] != '-') continue;
+        const bool is_long = words[i][1] == '-';
+        if (!is_long && std::isalpha(static_cast<unsigned char>(words[i][1])) == 0) continue;
+        std::string name = is_long ? words[i].substr(0, words[i].find('=')) : words[i].substr(0, 2);
+        if (!place.command->get_option_no_throw(name)) return name;
+    }
+    return "";
+}
+
+}  // namespace
+
+std::string unknown_command_sentence(const CLI::App& program,
+                                     const std::vector<std::string>& words) {
+    const Place place = place_of(program, words);
+    if (place.unknown.empty()) return "";
+    return fmt::format("{} has no command '{}'; {}; {} --help lists the commands", place.name,
+                       place.unknown, suggest_name(place.unknown, command_names(*place.command)),
+                       place.name);
+}
+
+std::string misfit_sentence(const CLI::App& program, const std::vector<std::string>& words,
+                            const std::string& complaint) {
+    if (std::string sentence = unknown_command_sentence(program, words); !sentence.empty())
+        return sentence;
+    const Place place = place_of(program, words);
+    const std::string option = unknown_option(place, words);
+    if (option.empty())
+        return fmt::format("{}; {} --help lists the options", complaint, place.name);
+    const std::string nearest = nearest_name(option, option_names(*place.command));
+    return fmt::format("{} has no option '{}'{}; {} --help lists the options", place.name, option,
+                       nearest.empty() ? "" : fmt::format("; the nearest is '{}'", nearest),
+                       place.name);
 }
 
 }  // namespace vantage

@@ -17,7 +17,7 @@ std::optional<std::string> LineInput::take() {
     const ssize_t count = ::read(fd_, buffer.data(), buffer.size());
     if (count > 0) {
         text_.append(buffer.data(), static_cast<std::size_t>(count));
-        // Nobody types that: a file was given in place of an answer.
+        // Longer than any typed line: a file was piped in. Discard it.
         if (text_.size() > longest_line && text_.find('\n') == std::string::npos) text_.clear();
     } else if (count == 0 || errno != EINTR) {
         is_at_end_ = true;

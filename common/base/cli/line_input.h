@@ -5,18 +5,18 @@
 
 namespace vantage {
 
-/// Lines that a person types, or a script writes, taken as they come by a loop that also waits for
-/// other things.
+/// Reads whole lines from a file descriptor without blocking, for loops that also wait for other
+/// events.
 class LineInput {
   public:
-    /// `fd` stays whose it is: 0 is standard input.
+    /// The descriptor (0 is standard input) stays open when this object is destroyed.
     explicit LineInput(int fd) : fd_(fd) {}
 
     int fd() const { return fd_; }
-    /// Nothing more will come.
+    /// Whether the end of the input was reached.
     bool is_at_end() const { return is_at_end_; }
-    /// To be called when there is something to read; never waits otherwise. The next whole line
-    /// without its end, of at most 1 KiB.
+    /// Returns the next whole line without its end, at most 1 KiB long, if there is one. Call it
+    /// when the descriptor is readable; it never blocks otherwise.
     std::optional<std::string> take();
 
   private:

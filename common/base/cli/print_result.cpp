@@ -20,4 +20,8 @@ void print_result(const nlohmann::ordered_json& result, bool as_json) {
     }
 }
 
+void EventTeller::tell(const nlohmann::ordered_json& facts, const std::string& words) const {
+    std::cout << (as_json_ ? facts.dump() + "\n" : words) << std::flush;
+}
+
 }  // namespace vantage

@@ -55,7 +55,7 @@ bool StopSignal::wait_for(std::chrono::nanoseconds time) {
     if (::read(fd_, &taken, sizeof taken) != static_cast<ssize_t>(sizeof taken)) return false;
     requested_ = true;
     if (taken.ssi_signo == SIGINT) has_been_interrupted = true;
-    // From here on the signals do what they do by themselves, should the orderly end hang.
+    // From here on the signals have their default effect, in case the orderly end hangs.
     set_blocked(false);
     return true;
 }

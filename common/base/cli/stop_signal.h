@@ -4,26 +4,26 @@
 
 namespace vantage {
 
-/// Turns SIGINT and SIGTERM into a question that a loop asks, so that a program ends in order:
-/// files finished, sockets closed, the summary printed. To be made before any other thread is
-/// started, since threads inherit the blocked signals. A second signal ends the program at once.
+/// Turns SIGINT and SIGTERM into a state that a loop polls, so that a program ends in order: files
+/// finished, sockets closed, the summary printed. Construct it before any other thread starts,
+/// since threads inherit the blocked signals. A second signal ends the program at once.
 class StopSignal {
   public:
-    /// Throws Error if the system gives no descriptor for it.
+    /// Throws Error if the system refuses a signal descriptor.
     StopSignal();
     ~StopSignal();
     StopSignal(const StopSignal&) = delete;
     StopSignal& operator=(const StopSignal&) = delete;
 
-    /// So often looks who waits for something else meanwhile.
+    /// How often a loop that waits for other events should poll for a stop signal.
     static constexpr std::chrono::milliseconds look_period{50};
 
     bool requested() { return wait_for(std::chrono::nanoseconds(0)); }
-    /// Sleeps; returns at once, and true, when the program is asked to stop.
+    /// Sleeps for `time`. Returns true at once when a stop signal arrives.
     bool wait_for(std::chrono::nanoseconds time);
 
-    /// Ctrl-C (SIGINT) has been taken, by the latest of these objects: a fact about the process, by
-    /// which its exit status goes.
+    /// Whether the latest StopSignal of this process received SIGINT (Ctrl-C). The exit status
+    /// depends on it.
     static bool was_interrupted();
 
   private:

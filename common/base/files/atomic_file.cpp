@@ -16,7 +16,7 @@
 namespace vantage {
 namespace {
 
-/// 0, or the errno of the step that failed.
+/// Writes and syncs a file. Returns 0, or the errno of the step that failed.
 int write_whole(const std::filesystem::path& path, std::span<const std::byte> bytes) {
     const UniqueFd file(
         ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0666));
@@ -27,14 +27,14 @@ int write_whole(const std::filesystem::path& path, std::span<const std::byte> by
         if (written < 0) return errno;
         bytes = bytes.subspan(static_cast<std::size_t>(written));
     }
-    // Without this a power cut after the rename could leave an empty file under the old name.
+    // Without fsync(), a power cut after the rename could leave an empty file at the target.
     return ::fsync(file.get()) == 0 ? 0 : errno;
 }
 
 }  // namespace
 
 void write_file_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    // Its own name for every thread that may be writing this path.
+    // A name per thread, since several threads may write the same path.
     const std::filesystem::path temporary = path.string() + fmt::format(".partial-{}", gettid());
     int reason = write_whole(temporary, bytes);
     if (reason == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) reason = errno;
@@ -68,6 +68,11 @@ void write_text_atomically(const std::filesystem::path& path, std::string_view t
 std::string read_text_file(const std::filesystem::path& path, std::size_t max_bytes) {
     const std::vector<std::byte> bytes = read_file(path, max_bytes);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+int sync_data(int fd) {
+    if (::fdatasync(fd) == 0 || errno == EINVAL || errno == ENOSYS) return 0;
+    return errno;
 }
 
 }  // namespace vantage

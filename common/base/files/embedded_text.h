@@ -4,7 +4,7 @@
 
 namespace vantage {
 
-/// A file as it was built in.
+/// A text file that the build embeds in the program.
 struct EmbeddedText {
     std::string_view name, text;
 };

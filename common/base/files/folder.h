@@ -4,12 +4,12 @@
 
 namespace vantage {
 
-/// Makes a folder and those above it; one that is there stays as it is. Throws Error with the path
-/// and the system's reason.
+/// Creates a folder and its parents; an existing folder stays as it is. Throws Error with the path
+/// and the reason.
 void make_folder(const std::filesystem::path& folder);
 
-/// Where Vantage keeps what is this user's: ~/.config/vantage, or below XDG_CONFIG_HOME. Throws
-/// Error where this user has no home.
+/// The folder of the user's own settings: ~/.config/vantage, or vantage below XDG_CONFIG_HOME.
+/// Throws Error if the user has no home folder.
 std::filesystem::path user_folder();
 
 }  // namespace vantage

@@ -29,7 +29,7 @@ bool KeptFile::is_due(MonotonicTime now) const { return changed_ && now - *chang
 void KeptFile::put_aside(const char* why) const {
     const std::filesystem::path aside = free_path(file_);
     std::filesystem::rename(file_, aside);
-    log_info("{} is {} now, since {}", file_.string(), aside.string(), why);
+    log_info("renamed {} to {}, because {}", file_.string(), aside.string(), why);
 }
 
 bool KeptFile::write(const std::string& text, const char* makes_room) {
@@ -49,7 +49,7 @@ bool KeptFile::write(const std::string& text, const char* makes_room) {
         return true;
     } catch (const std::exception& error) {
         if (!std::exchange(has_failed_, true))
-            log_error("{} are not kept, and it is tried again: {}", what_, error.what());
+            log_error("cannot save {}, and will try again: {}", what_, error.what());
         changed_ = MonotonicClock::now();
         return false;
     }

@@ -10,25 +10,25 @@
 
 namespace vantage {
 
-/// A small text file in which a session keeps what hands change, a second after the first change. A
-/// file that anybody else has changed meanwhile stays under a free name. A disk that fails is told
-/// of once and tried again.
+/// A small text file that autosaves the operator's changes of a session, one second after the first
+/// change. If another program changed the file meanwhile, that version is kept under a free name.
+/// A failing disk is reported once and retried. Not thread-safe.
 class KeptFile {
   public:
-    /// Reads the file where there is one. `what` it keeps, for people: "shots and move". Throws
-    /// Error if it cannot be read.
+    /// Reads the file if it exists. `what`: its content, for messages: "shots and move". Throws
+    /// Error if the file cannot be read.
     KeptFile(std::filesystem::path file, std::string what);
 
     const std::filesystem::path& path() const { return file_; }
-    /// There was one when the session began.
+    /// Whether the file existed when the session began.
     bool is_there() const { return is_there_; }
 
     void note_change();
     bool is_changed() const { return changed_.has_value(); }
-    /// What was changed is to be written now.
+    /// Whether it is time to write a change.
     bool is_due(MonotonicTime now) const;
-    /// In place of what this session read or wrote, or, where that has to stay, beside it.
-    /// `makes_room`: why it has to; null: it need not. False: it failed, which the log says.
+    /// Writes the text over the file that this session read or wrote. `makes_room`: a reason to
+    /// rename the existing file first; null: none. False if writing failed, which is logged.
     bool write(const std::string& text, const char* makes_room = nullptr);
 
     static constexpr std::size_t most_bytes = 1 << 20;
@@ -39,8 +39,8 @@ class KeptFile {
     std::filesystem::path file_;
     std::string what_;
     bool is_there_;
-    std::vector<std::byte> bytes_;          ///< that this session read or wrote; empty: none
-    std::optional<MonotonicTime> changed_;  ///< and not written yet
+    std::vector<std::byte> bytes_;          ///< last read or written by this session; empty: none
+    std::optional<MonotonicTime> changed_;  ///< time of the first change not yet written
     bool has_failed_ = false;
 };
 

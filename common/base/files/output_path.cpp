@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-/// Also true for two names of a file that is yet to be made.
+/// Whether two paths name the same file, also if the file does not exist yet.
 bool are_the_same(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code ignored;
     if (std::filesystem::equivalent(a, b, ignored)) return true;

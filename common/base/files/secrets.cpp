@@ -8,7 +8,7 @@ namespace vantage {
 namespace {
 
 constexpr const char* left_out = "[left out]";
-/// Of a CURVE key in Z85 (ZeroMQ RFC 32).
+/// The length of a CURVE key in Z85 (ZeroMQ RFC 32).
 constexpr std::size_t key_chars = 40;
 
 bool is_z85(char c) {
@@ -17,8 +17,9 @@ bool is_z85(char c) {
            others.find(c) != std::string_view::npos;
 }
 
-/// It has none of the characters that only keys have, and begins with a scheme or a slash. A key
-/// may begin with one, too: what is as long as a key has more slashes than that.
+/// Whether the text is a URL or a path rather than a key: it has no character that only keys have,
+/// and begins with a scheme or a slash. A key may begin like that, too, but text as long as a key
+/// has more slashes if it is a path.
 bool is_url_or_path(std::string_view run) {
     constexpr std::string_view others = "/.-+@=:?&%#";
     const auto is_usual = [&](char c) {
@@ -30,7 +31,7 @@ bool is_url_or_path(std::string_view run) {
            (run.size() != key_chars || std::count(run.begin(), run.end(), '/') > 1);
 }
 
-/// A date or a checksum has no capital, digit and small letter each.
+/// Whether the text has a capital, a small letter and a digit, which dates and checksums lack.
 bool looks_like_key(std::string_view run) {
     const auto has = [&](int (*kind)(int)) {
         return std::any_of(run.begin(), run.end(),
@@ -39,7 +40,7 @@ bool looks_like_key(std::string_view run) {
     return has(std::isupper) && has(std::islower) && has(std::isdigit);
 }
 
-/// Without runs of as many Z85 characters as a key has, or more: one may stand among others.
+/// Replaces runs of at least 40 Z85 characters that may contain a key.
 std::string without_keys(std::string_view text) {
     std::string out;
     for (std::size_t at = 0; at < text.size();) {
@@ -60,7 +61,7 @@ std::string without_keys(std::string_view text) {
 
 std::string without_secrets(std::string_view text) {
     constexpr auto flags = std::regex::icase | std::regex::optimize;
-    // Names may have words before: srt_passphrase, public_key; what ends in _file is a path.
+    // A name may have a prefix (srt_passphrase, public_key). A name that ends in _file is a path.
     static const std::regex quoted(
         R"(((?:key|public|secret|passphrase|password|token|streamid)["']?\s*[=:]\s*)("[^"\n]*"|'[^'\n]*'))",
         flags);

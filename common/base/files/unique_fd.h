@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// Owns one file descriptor; -1 is none. Move-only.
+/// Owns one file descriptor; -1 means none. Move-only.
 class UniqueFd {
   public:
     UniqueFd() = default;

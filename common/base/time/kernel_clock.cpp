@@ -11,7 +11,7 @@ int seconds_between_tai_and_utc() {
     timespec utc{}, tai{};
     ::clock_gettime(CLOCK_REALTIME, &utc);
     ::clock_gettime(CLOCK_TAI, &tai);
-    // TAI is read a moment later, so that whole seconds are not cut to one less.
+    // TAI is read a moment later, so that the division does not round down to one second less.
     const auto ns = [](const timespec& t) { return t.tv_sec * 1'000'000'000LL + t.tv_nsec; };
     return static_cast<int>((ns(tai) - ns(utc)) / 1'000'000'000LL);
 }
@@ -19,11 +19,10 @@ int seconds_between_tai_and_utc() {
 }  // namespace
 
 KernelClock read_kernel_clock() {
-    // Whoever trims the clock resets its greatest error, which grows by 500 ppm until the next
-    // time.
+    // A daemon that trims the clock resets its maximum error, which then grows by 500 ppm.
     constexpr long growth_us_per_s = 500, lately_s = 10;
     timex state{};
-    // A sandbox may keep the question back; how far TAI is from UTC the clocks themselves show.
+    // A sandbox may forbid adjtimex(); the two clocks themselves show the offset of TAI.
     if (::adjtimex(&state) < 0) return {.tai_offset_s = seconds_between_tai_and_utc()};
     return {.tai_offset_s = state.tai,
             .is_synchronized = (state.status & STA_UNSYNC) == 0,

@@ -34,7 +34,7 @@ TaiTime PulseGrid::time_of(std::uint64_t index) const {
 
 std::uint64_t PulseGrid::index_at_or_before(TaiTime time) const {
     const Wide index = static_cast<Wide>(to_ns(time)) * pulses_ / seconds_ / nanoseconds_per_second;
-    // A pulse is rounded down to a nanosecond, and may thereby come before its exact time.
+    // The time of a pulse is rounded down to a nanosecond and may precede its exact time.
     const auto next = static_cast<std::uint64_t>(index) + 1;
     return time_of(next) <= time ? next : next - 1;
 }

@@ -8,10 +8,10 @@
 
 namespace vantage {
 
-/// How often something that is counted happens, over the last two seconds.
+/// Measures the rate of a counter over the last two seconds.
 class RateMeter {
   public:
-    /// `count` never falls.
+    /// Adds the counter's value, which never decreases.
     void add(std::uint64_t count, MonotonicTime now) {
         samples_.emplace_back(count, now);
         while (samples_.size() > 2 && now - samples_[1].second > window) samples_.pop_front();

@@ -7,15 +7,15 @@
 
 namespace vantage {
 
-/// A share of the time for work beside which other work has to go on. What is left of it and what
-/// was taken too much count later, up to `longest_carried` of either.
+/// Limits background work to a share of the elapsed time. Unused and overdrawn time carry over, up
+/// to `longest_carried` either way.
 class TimeBudget {
   public:
-    /// `share` from 0 to 1. Of the time before `now` nothing is left.
+    /// `share` is from 0 to 1. The budget starts empty at `now`.
     TimeBudget(double share, std::chrono::nanoseconds longest_carried, MonotonicTime now)
         : share_(share), longest_carried_(longest_carried), earned_(now) {}
 
-    /// Whether some of it is left.
+    /// Whether budget is left.
     bool has_some(MonotonicTime now) {
         const auto more = std::chrono::duration_cast<std::chrono::nanoseconds>(
             share_ * std::chrono::duration<double, std::nano>(now - earned_));
@@ -23,7 +23,7 @@ class TimeBudget {
         left_ = std::clamp(left_ + more, -longest_carried_, longest_carried_);
         return left_.count() > 0;
     }
-    /// The work took so long.
+    /// Charges the duration of work that was done.
     void spend(std::chrono::nanoseconds time) { left_ -= time; }
 
   private:

@@ -4,11 +4,11 @@
 
 namespace vantage {
 
-/// Whether this computer knows a zone of that name ("Europe/Stockholm", "UTC").
+/// Whether this computer knows a time zone of that name ("Europe/Stockholm", "UTC").
 bool is_time_zone(const std::string& name);
 
-/// From now on this process's local time is that of the zone; before, it is the computer's. To be
-/// called before there are threads. Throws Error for a zone that is not known.
+/// Sets the time zone of this process; the default is the computer's. Call it before other threads
+/// start. Throws Error for an unknown zone.
 void use_time_zone(const std::string& name);
 
 }  // namespace vantage

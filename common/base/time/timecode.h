@@ -8,33 +8,32 @@
 
 namespace vantage {
 
-/// Gives instants the house's time of day as SMPTE ST 12-1 time code: local time of this process
-/// (its computer's zone, or use_time_zone()), and the number of the frame.
+/// Computes SMPTE ST 12-1 time code for frames: the local time of day (of the computer's zone, or
+/// of use_time_zone()) and the frame's number within the second.
 ///
-/// At 29.97, 59.94 and 119.88 frames a second it is drop-frame code "hh:mm:ss;ff": frames are
-/// counted from the first one after local midnight, and of every minute but each tenth the first
-/// numbers are left out, so that it is never five frames off the clock; at midnight it is set
-/// anew. At other rates it is "hh:mm:ss:ff", frames counted within each second. Above 60 frames a
-/// second two or more share a number. Where the clock is set forward or back for summer and winter
-/// so is the code.
+/// At 29.97, 59.94 and 119.88 fps it is drop-frame code "hh:mm:ss;ff". Frames are counted from the
+/// first one after local midnight, and the first numbers of every minute except each tenth are
+/// skipped, so that the label is never five frames off the clock; the count restarts at midnight.
+/// At other rates it is "hh:mm:ss:ff" with frames counted within each second. Above 60 fps two or
+/// more frames share a number. The label follows daylight saving time.
 class TimecodeClock {
   public:
     /// Precondition: 0.001 <= rate_hz <= 1e6.
     explicit TimecodeClock(double rate_hz);
 
-    /// Of a frame of the stage's pulse. `tai_offset_s`: of the clock that the pulses are read from,
-    /// ahead of UTC (RigSync's of the rig, KernelClock's of this computer): 37 on one that knows
-    /// TAI, 0 on one that nobody told.
+    /// The label of the frame at a trigger pulse. `tai_offset_s`: by how much the pulses' clock is
+    /// ahead of UTC (from RigSync for a rig, from KernelClock for this computer): 37 where TAI is
+    /// set, 0 where it is not.
     std::string of_pulse(std::uint64_t trigger_index, int tai_offset_s) const;
-    /// Of the frame that begins at `instant` or was the last one to begin before it.
+    /// The label of the last frame that began at or before `instant`.
     std::string at(TaiTime instant, int tai_offset_s) const {
         return of_pulse(grid_.index_at_or_before(instant), tai_offset_s);
     }
 
   private:
     PulseGrid grid_;
-    int frames_a_number_;   ///< above 60 Hz
-    int numbers_a_second_;  ///< nominal: 30 for 29.97
+    int frames_per_number_;   ///< above 1 only above 60 fps
+    int numbers_per_second_;  ///< nominal: 30 for 29.97
     bool is_drop_frame_;
 };
 

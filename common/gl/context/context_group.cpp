@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-/// Made on a thread of its own, so that nothing becomes current on this one.
+/// Creates a context on a thread of its own, so that nothing becomes current on this thread.
 std::shared_ptr<const EglContext> detached_context() {
     return std::async(std::launch::async,
                       [] {

@@ -9,28 +9,29 @@
 
 namespace vantage {
 
-/// Contexts that share textures, buffers, programs and fences, for threads of their own. A GPU that
-/// is reset takes all of them along: then the group is made anew as its next generation, and each
-/// thread joins it again and makes its objects anew. Those of a generation before are only to be
-/// destroyed, on a context of it.
+/// A group of GL contexts, one per thread, that share textures, buffers, programs and fences. A GPU
+/// reset loses all of them. Then renew() creates the next generation of the group, each thread
+/// joins it and creates its objects again. Objects of an earlier generation may only be destroyed,
+/// with a context of that generation current. Thread-safe.
 class ContextGroup {
   public:
-    /// Nothing is current afterwards that was not before. Throws as EglContext() does.
+    /// Leaves the thread's current context as it was. Throws as EglContext() does.
     ContextGroup();
 
     struct Member {
         std::shared_ptr<const EglContext> context;  ///< current on no thread
         std::uint64_t generation = 0;
     };
-    /// A new context of the newest generation.
+    /// Creates a context of the newest generation.
     Member join();
     std::uint64_t generation() const { return generation_; }
-    /// What was thrown (ContextLost) tells that this generation is lost: the first who says so
-    /// makes the next one. Throws as EglContext() does.
+    /// Reports that generation `lost` was lost (ContextLost was thrown). The first report creates
+    /// the next generation; later reports of the same one do nothing. Throws as EglContext() does.
     void renew(std::uint64_t lost);
-    /// What its threads take turns for (DriverTurn); null where they need not.
+    /// The mutex that the group's threads lock while they call the driver (DriverLock); null if the
+    /// driver needs none.
     std::mutex* driver() const { return driver_; }
-    /// How often that was.
+    /// The number of GPU resets so far.
     int losses() const { return static_cast<int>(generation_ - first_generation); }
 
   private:

@@ -8,7 +8,7 @@
 namespace vantage {
 
 void require_context(const char* doing) {
-    // Of a lost context nothing can be asked but this; its display knows whether it can be.
+    // A lost context answers no other query; the display knows whether it supports this one.
     if (!makes_robust_contexts(eglGetCurrentDisplay())) return;
     const auto reset_status =
         reinterpret_cast<GLenum (*)()>(eglGetProcAddress("glGetGraphicsResetStatusKHR"));

@@ -4,15 +4,15 @@
 
 namespace vantage {
 
-/// The GPU was reset, or is gone: the context draws nothing any more, and all that it and those
-/// that it shares with held is lost.
+/// The GPU was reset or removed. The context draws nothing any more, and all objects of its group
+/// are lost.
 class ContextLost : public Error {
   public:
     using Error::Error;
 };
 
-/// Throws ContextLost if that has befallen this thread's context. A driver that cannot tell of
-/// resets (EGL_EXT_create_context_robustness) never says so.
+/// Throws ContextLost, with `doing` in its sentence, if the current context is lost. Drivers
+/// without EGL_EXT_create_context_robustness never report it.
 void require_context(const char* doing);
 
 }  // namespace vantage

@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-/// Like the current context, it belongs to the thread.
+/// The driver's mutex if this thread holds it. Thread-local, like the current context.
 thread_local std::mutex* held = nullptr;
 
 }  // namespace
@@ -42,17 +42,17 @@ DriverLock::Pause::~Pause() {
 
 }  // namespace vantage
 
-/// Instead of the C library's, for the whole program. llvmpipe's lp_fence_signalled() looks at a
-/// fence without its lock: a scene whose fence was just signalled is taken up anew, and the fence
-/// and its mutex are freed, while the thread that signalled it has yet to unlock it, which then
-/// writes into freed memory (Mesa 22.3; seen as a corrupted heap beside busy programs). A mutex
-/// that another thread holds is waited for before it is destroyed, which nobody else's is.
+/// Replaces the C library's function in the whole program, as a workaround for llvmpipe (Mesa
+/// 22.3). lp_fence_signalled() reads a fence without its lock: it reuses a scene whose fence was
+/// just signalled and frees the fence and its mutex, while the signalling thread has yet to unlock
+/// that mutex and then writes to freed memory, which corrupts the heap. So this function waits
+/// until no other thread holds the mutex. Well-behaved callers never have to wait.
 extern "C" __attribute__((visibility("default"))) int pthread_mutex_destroy(
     pthread_mutex_t* mutex) noexcept {
     using Destroy = int (*)(pthread_mutex_t*);
     static const auto destroy =
         reinterpret_cast<Destroy>(dlsym(RTLD_NEXT, "pthread_mutex_destroy"));
-    // Who destroys a mutex that it holds itself is not held up for ever.
+    // A thread that destroys a mutex which it holds itself is not blocked for ever.
     constexpr std::chrono::milliseconds patience{500};
     constexpr std::chrono::microseconds look_period{50};
     int held = pthread_mutex_trylock(mutex);

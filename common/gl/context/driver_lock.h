@@ -4,24 +4,23 @@
 
 namespace vantage {
 
-/// While it lives, no other thread that takes turns calls the driver. Mesa's llvmpipe looks, when a
-/// buffer is mapped or a texture is uploaded, through the unfinished drawing of every context of
-/// its process, without a lock against the threads that draw there, and dies of it now and then (to
-/// be read in Mesa 22.3, llvmpipe_flush_resource; 25.0 has a lock). Threads take turns at giving it
-/// work; while one waits (Fence, SlicedDrawing) it is another's turn. Contexts of one display take
-/// turns, also those that share nothing. For the same driver's sake a mutex of this program is
-/// destroyed only once nobody holds it (pthread_mutex_destroy, in the source).
+/// Serialises the threads that call the GL driver. When llvmpipe maps a buffer or uploads a
+/// texture, it walks through the unfinished drawing of every context of the process, without a lock
+/// against the threads that draw there, and crashes occasionally (llvmpipe_flush_resource in Mesa
+/// 22.3; 25.0 has a lock). While a thread waits for the GPU (Fence, SlicedDrawing), it releases the
+/// lock. All contexts of a display need it, also those that share nothing. The source has a further
+/// workaround for the same driver (pthread_mutex_destroy).
 class DriverLock {
   public:
-    /// Waits until nobody else has the turn. `driver` must outlive it; null: the driver keeps its
-    /// contexts apart itself, and there are no turns. A thread has one turn at a time.
+    /// Waits for the lock. `driver` must outlive this object; null for drivers that need no lock.
+    /// A thread may hold one lock at a time.
     explicit DriverLock(std::mutex* driver);
     ~DriverLock();
     DriverLock(const DriverLock&) = delete;
     DriverLock& operator=(const DriverLock&) = delete;
 
-    /// While it lives, it is another's turn, and this thread calls nothing of the driver but waits.
-    /// Without effect on a thread that has no turn.
+    /// Releases the lock of this thread during its life, for waits that need nothing of the driver.
+    /// No effect on a thread without the lock.
     class Pause {
       public:
         Pause();

@@ -37,7 +37,7 @@ bool is_software_device(EGLDeviceEXT device) {
     return query && lists_extension(query(device, EGL_EXTENSIONS), "EGL_MESA_device_software");
 }
 
-/// One that tells of resets where the driver lets it; EGL_NO_CONTEXT if there can be none.
+/// Creates a robust context where the driver supports it; EGL_NO_CONTEXT if it fails.
 EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext shared) {
     constexpr std::array<EGLint, 7> robust = {EGL_CONTEXT_MAJOR_VERSION,
                                               3,
@@ -51,7 +51,7 @@ EGLContext create_context(EGLDisplay display, EGLConfig config, EGLContext share
     EGLContext context = EGL_NO_CONTEXT;
     if (makes_robust_contexts(display))
         context = eglCreateContext(display, config, shared, robust.data());
-    // It shares only with its like: a window's is none.
+    // A robust context shares only with robust ones, and a window's context is not robust.
     if (context == EGL_NO_CONTEXT)
         context = eglCreateContext(display, config, shared, plain.data());
     return context;
@@ -61,7 +61,7 @@ struct GbmDeviceDeleter {
     void operator()(gbm_device* device) const { gbm_device_destroy(device); }
 };
 
-/// A render node and its buffers' manager.
+/// A render node and its GBM device.
 struct GbmDevice {
     explicit GbmDevice(const std::string& node)
         : fd(::open(node.c_str(), O_RDWR | O_CLOEXEC)),
@@ -106,7 +106,7 @@ std::string egl_error_name(EGLint code) {
 
 EglContext::EglContext() {
     try_platform(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, "surfaceless");
-    // Beside another vendor's driver it is Mesa that answers there, and draws by the processor.
+    // Beside another vendor's driver, Mesa may answer with software rendering.
     if (!has_gpu()) try_devices();
     if (!ready()) try_gbm();
     if (ready()) return;
@@ -123,7 +123,7 @@ EglContext::EglContext(EGLDisplay display, EGLContext shared, bool is_software)
     : display_(display), hold_(EglDisplayHold::join(display)), is_software_(is_software) {
     if (!has_extension(surfaceless_extension))
         fail("no second OpenGL context: the driver lacks {}", surfaceless_extension);
-    // The same configuration, so that every driver lets them share.
+    // The same configuration, so that every driver allows sharing.
     EGLint config_id = 0;
     if (!eglQueryContext(display, shared, EGL_CONFIG_ID, &config_id))
         fail("no second OpenGL context: the first one's configuration is unknown ({})",
@@ -149,7 +149,7 @@ EglContext::~EglContext() {
     if (eglGetCurrentContext() == context_)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
-    // What a driver's compiler took, the allocator keeps: 80 MiB of llvmpipe with each reset.
+    // A driver's compiler leaves freed memory with the allocator: 80 MiB of llvmpipe per reset.
     ::malloc_trim(0);
 }
 

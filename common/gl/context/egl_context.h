@@ -11,40 +11,40 @@
 
 namespace vantage {
 
-/// The name of the last EGL error of this thread, and takes it back; or of this one.
+/// The name of this thread's last EGL error, which it clears; or the name of this code.
 std::string egl_error_name();
 std::string egl_error_name(EGLint code);
 
-/// One way that was tried to reach a GPU without a display, and how it went.
+/// One attempt to reach a GPU without a display, and its result.
 struct EglAttempt {
     std::string platform;  ///< "surfaceless", "device 0", "gbm /dev/dri/renderD128"
-    std::string outcome;   ///< "ok" of the one that is used, or why not
+    std::string outcome;   ///< "ok" for the one in use, otherwise the reason it failed
 };
 
-/// Whether contexts of this display tell that the GPU was reset (see context_loss.h).
+/// Whether contexts of this display report GPU resets (see context_loss.h).
 bool makes_robust_contexts(EGLDisplay display);
 
-/// An OpenGL ES 3.1 context without a window. A thread uses it while it is current there; it may be
-/// destroyed on another thread once it is current on none.
+/// An OpenGL ES 3.1 context without a window. It may be destroyed on any thread once it is current
+/// on none.
 class EglContext {
   public:
-    /// Current on the constructing thread. Tried in this order: the surfaceless platform, EGL
-    /// devices, GBM render nodes; one that the processor draws is taken where no EGL device is a
-    /// GPU that works. Throws Error that lists every attempt and its reason, if none works.
+    /// Creates a context and makes it current on this thread. Tries the surfaceless platform, EGL
+    /// devices and GBM render nodes, in this order. Takes software rendering only if no EGL device
+    /// is a working GPU. If all attempts fail, throws Error that lists each with its reason.
     EglContext();
-    /// One that shares textures, buffers, programs and fences with another, whether that is current
-    /// anywhere or not; framebuffers and vertex arrays stay each context's own. Nothing becomes
-    /// current: a thread takes it with CurrentContext. Throws Error if the driver refuses.
+    /// Creates a context that shares textures, buffers, programs and fences with another one, which
+    /// need not be current; framebuffers and vertex arrays are not shared. The new context is not
+    /// made current; use CurrentContext. Throws Error if the driver refuses.
     static EglContext sharing_with(const EglContext& other);
     ~EglContext();
     EglContext(const EglContext&) = delete;
     EglContext& operator=(const EglContext&) = delete;
 
-    /// Of the search that the first constructor makes; empty for a sharing one.
+    /// The attempts of the first constructor; empty for a sharing context.
     const std::vector<EglAttempt>& attempts() const { return attempts_; }
     EGLDisplay display() const { return display_; }
-    /// What all threads that draw on this display take turns for (DriverTurn); null where they need
-    /// not.
+    /// The mutex that the threads of this display lock while they call the driver (DriverLock);
+    /// null if the driver needs none.
     std::mutex* driver() const { return is_software_ ? hold_.driver() : nullptr; }
     bool has_extension(const char* egl_extension) const;
 
@@ -65,15 +65,15 @@ class EglContext {
     bool is_software_ = false;
 };
 
-/// Makes a context current on this thread for its own life, and what was current before after it.
+/// Makes a context current on this thread during its life, and restores the previous one after it.
 class CurrentContext {
   public:
     struct None {};
-    /// None is current: what GL is asked does nothing. For the objects of lost contexts, whose
-    /// names mean others by now.
+    /// Makes no context current, so that GL calls do nothing. For destroying objects of lost
+    /// contexts, whose names belong to other objects by now.
     explicit CurrentContext(None);
-    /// Throws Error if it cannot be made current: it is so on another thread; ContextLost if the
-    /// GPU was reset.
+    /// Throws Error if the context cannot be made current, such as when it is current on another
+    /// thread; ContextLost if the GPU was reset.
     explicit CurrentContext(const EglContext& context);
     ~CurrentContext();
     CurrentContext(const CurrentContext&) = delete;
@@ -82,7 +82,7 @@ class CurrentContext {
   private:
     CurrentContext();
 
-    EGLDisplay display_;  ///< of the context
+    EGLDisplay display_;  ///< of the previous context
     EGLDisplay previous_display_;
     EGLSurface previous_draw_, previous_read_;
     EGLContext previous_;

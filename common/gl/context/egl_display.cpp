@@ -15,7 +15,7 @@ struct OpenDisplay {
     std::mutex driver;
 };
 
-/// What is open, for the whole process: EGL itself keeps its connections so.
+/// The open displays of the process, as EGL keeps its connections per process.
 struct OpenDisplays {
     std::mutex mutex;
     std::map<EGLDisplay, OpenDisplay> all;

@@ -7,18 +7,18 @@
 
 namespace vantage {
 
-/// One holder's part of a display connection. EGL has one connection a native display for the whole
-/// process and ends it, with all its contexts, at the first eglTerminate: here the last holder's
-/// end does that. May be made and destroyed on any thread.
+/// Shared ownership of an EGL display connection. EGL has one connection per native display and
+/// process, and the first eglTerminate() ends it with all its contexts. Here the end of the last
+/// owner does. Thread-safe.
 class EglDisplayHold {
   public:
     EglDisplayHold() = default;
-    /// Initialises the display unless another hold did, and keeps `native` (what the display was
-    /// made from, where that is an object) until the display ends. `held()` is false, and
-    /// eglGetError() says why, where EGL refuses.
+    /// Initialises the display if no other hold has. Keeps `native` (the object that the display
+    /// was made from, if any) until the display ends. If EGL refuses, held() is false and
+    /// eglGetError() has the reason.
     static EglDisplayHold open(EGLDisplay display, std::shared_ptr<void> native);
-    /// Joins the holds on `display`. Precondition: there is one, as that of a context which the new
-    /// one is to share with.
+    /// Joins the existing holds on `display`. Precondition: there is one, such as that of the
+    /// context that a new context shares with.
     static EglDisplayHold join(EGLDisplay display);
 
     EglDisplayHold(EglDisplayHold&& other) noexcept;
@@ -26,8 +26,7 @@ class EglDisplayHold {
     ~EglDisplayHold();
 
     bool held() const { return display_ != EGL_NO_DISPLAY; }
-    /// One for all who hold the display: what threads that draw there may take turns for
-    /// (DriverTurn). Null if it is not held.
+    /// One mutex per display, for threads that call its driver (DriverLock). Null if not held.
     std::mutex* driver() const { return driver_; }
 
   private:

@@ -6,9 +6,9 @@
 
 namespace vantage {
 
-/// What Vantage's shaders may count on: the limits of a Raspberry Pi 4 (V3D 4.2, Mesa). Looser ones
-/// of the computer at hand are not used, so that what runs here runs there; Program and Framebuffer
-/// enforce them.
+/// The limits that Vantage's shaders are written for: those of a Raspberry Pi 4 (V3D 4.2, Mesa).
+/// Program and Framebuffer enforce them on every computer, so that shaders that run here also run
+/// on a Pi.
 struct PiLimits {
     static constexpr int max_workgroup_invocations = 256;
     static constexpr int max_colour_targets = 4;
@@ -16,7 +16,7 @@ struct PiLimits {
     static constexpr int max_shared_bytes = 16 * 1024;
 };
 
-/// What the current context offers.
+/// The capabilities of the current context.
 struct GlInfo {
     std::string vendor, renderer, version;
     int max_texture_side_px = 0;
@@ -27,13 +27,13 @@ struct GlInfo {
     bool is_software = false;  ///< llvmpipe or softpipe
 
     static GlInfo query();
-    /// Throws Error naming the first limit that is below what Vantage needs.
+    /// Throws Error naming the first capability below PiLimits.
     void require_vantage_minimum() const;
 };
 
 bool has_gl_extension(const char* name);
 
-/// Throws Error with `doing` if GL has an error flag set (a fault of driver or memory at this
+/// Throws Error with `doing` if GL has an error flag (a fault of the driver or of memory at this
 /// point), ContextLost if the GPU was reset.
 void check_gl(const char* doing);
 

@@ -6,12 +6,12 @@
 
 namespace vantage {
 
-/// Of a GPU or software rasteriser that several contexts share: who draws against the clock claims
-/// it, and sliced drawing elsewhere (SlicedDrawing) waits between its bands until the claim ends.
-/// Drivers know no such order: they take what comes, band for band.
+/// Gives one renderer priority on a GPU or software rasteriser that several contexts share. The
+/// renderer with a deadline claims it; sliced drawing of other contexts (SlicedDrawing) waits
+/// between its bands until the claim ends. Drivers have no such priority. Thread-safe.
 class RenderPriority {
   public:
-    /// Ends with its life.
+    /// A claim that lasts as long as the object.
     class Claim {
       public:
         explicit Claim(RenderPriority& way);
@@ -23,7 +23,7 @@ class RenderPriority {
         RenderPriority* way_;
     };
 
-    /// Waits while somebody claims it, for `longest` at most: who gives way goes on too, slowly.
+    /// Waits while there is a claim, but at most `longest`, so that background work never stops.
     void give_way(std::chrono::nanoseconds longest);
 
   private:

@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-/// Shaders reckon where they are in a buffer with 32-bit signed numbers.
+/// Shaders index buffers with 32-bit signed integers.
 constexpr std::size_t most_bytes = (std::size_t{1} << 31) - 1;
 
 }  // namespace
@@ -23,7 +23,7 @@ Buffer::Buffer(std::size_t bytes, GLenum usage, const void* initial) : bytes_(by
     GLuint name = 0;
     glGenBuffers(1, &name);
     handle_ = GlHandle<delete_buffer>(name);
-    // COPY_WRITE is a binding point that no vertex array or shader looks at.
+    // COPY_WRITE is a binding point that no vertex array or shader uses.
     glBindBuffer(GL_COPY_WRITE_BUFFER, name);
     glBufferData(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), initial, usage);
     check_gl("allocating a buffer");

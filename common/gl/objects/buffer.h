@@ -14,7 +14,7 @@ inline void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
 /// A GL buffer object of fixed size (vertices, indices, shader storage, uniforms).
 class Buffer {
   public:
-    /// Throws Error if memory is short. `initial` may be null.
+    /// Throws Error if memory runs out. `initial` may be null.
     Buffer(std::size_t bytes, GLenum usage, const void* initial = nullptr);
 
     template <class T>
@@ -23,7 +23,7 @@ class Buffer {
     }
 
     void write(std::size_t offset, std::span<const std::byte> data);
-    /// Copies out; waits for the GPU.
+    /// Copies the content to `data`. Waits for the GPU.
     void read(std::size_t offset, std::span<std::byte> data) const;
     void bind_storage(int binding) const;
     void bind(GLenum target) const { glBindBuffer(target, handle_.name()); }

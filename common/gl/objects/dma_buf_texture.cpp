@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* modifiers_extension = "EGL_EXT_image_dma_buf_import_modifiers";
 
-/// The kernel's code for texels of these bytes.
+/// The DRM format code for a texel format.
 std::uint32_t kernel_format(TextureFormat format) {
     switch (format) {
         case TextureFormat::r8:
@@ -32,10 +32,11 @@ std::uint32_t kernel_format(TextureFormat format) {
     }
 }
 
-/// Some drivers (llvmpipe of Mesa 25) import whatever the number names, and die of it later.
+/// Whether a descriptor is a dma-buf. Some drivers (llvmpipe of Mesa 25) import any descriptor and
+/// crash later.
 bool is_dma_buf(int fd) {
     dma_buf_sync access{.flags = DMA_BUF_SYNC_START | DMA_BUF_SYNC_READ};
-    // What a real one's driver has against it is of no interest here.
+    // Only the kind of error matters: a dma-buf's own driver may refuse with another one.
     if (::ioctl(fd, DMA_BUF_IOCTL_SYNC, &access) != 0)
         return errno != ENOTTY && errno != EBADF && errno != EINVAL;
     access.flags = DMA_BUF_SYNC_END | DMA_BUF_SYNC_READ;
@@ -79,7 +80,7 @@ DmaBufTexture::DmaBufTexture(const EglContext& context, const DmaBufPlane& plane
                                       static_cast<EGLint>(plane.offset),
                                       EGL_DMA_BUF_PLANE0_PITCH_EXT,
                                       static_cast<EGLint>(plane.bytes_per_line)};
-    // Left to guess, some drivers take foreign memory for tiled; 0 is the modifier of plain rows.
+    // Without a modifier some drivers assume a tiled layout; 0 means linear rows.
     if (context.has_extension(modifiers_extension))
         attributes.insert(attributes.end(), {EGL_DMA_BUF_PLANE0_MODIFIER_LO_EXT, 0,
                                              EGL_DMA_BUF_PLANE0_MODIFIER_HI_EXT, 0});

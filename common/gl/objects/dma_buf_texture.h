@@ -8,25 +8,25 @@
 
 namespace vantage {
 
-/// One plane of a picture in memory that another driver (a camera's) shares as a dma-buf.
+/// One plane of a frame in memory that another driver (a camera's) shares as a dma-buf.
 struct DmaBufPlane {
     int fd = -1;
     TextureFormat format = TextureFormat::r8;  ///< r8, rg8 or rgba8
     int width_px = 0, height_px = 0;
-    std::uint32_t offset = 0;          ///< of its first byte in the buffer
+    std::uint32_t offset = 0;          ///< of the plane's first byte in the buffer
     std::uint32_t bytes_per_line = 0;  ///< padding included
 };
 
-/// A texture that is the plane itself: nothing is copied, and what the other driver writes into the
-/// buffer is what the next drawing reads. For texelFetch only (nearest, clamped). By
-/// EGL_EXT_image_dma_buf_import and GL_OES_EGL_image.
+/// A texture backed by a dma-buf plane without a copy: the next draw reads what the other driver
+/// wrote. For texelFetch only (nearest, clamped). Needs EGL_EXT_image_dma_buf_import and
+/// GL_OES_EGL_image.
 class DmaBufTexture {
   public:
-    /// The extensions that this takes and the context lacks, by name; empty: none.
+    /// The names of required extensions that the context lacks; empty if none.
     static std::string missing_extensions(const EglContext& context);
 
-    /// The buffer stays alive with the texture, its descriptor need not. Throws Error with the
-    /// driver's reason where it does not import such a plane. `context` must outlive it.
+    /// Keeps the buffer alive; the descriptor may be closed afterwards. Throws Error with the
+    /// driver's reason if it cannot import the plane. `context` must outlive the texture.
     DmaBufTexture(const EglContext& context, const DmaBufPlane& plane);
     ~DmaBufTexture();
     DmaBufTexture(DmaBufTexture&& other) noexcept;

@@ -13,7 +13,7 @@ Fence Fence::insert() {
     Fence fence;
     fence.sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (!fence.sync_) fail("the driver has no memory for a fence");
-    // Unsent, it would hold other contexts for ever.
+    // An unflushed fence would block other contexts for ever.
     glFlush();
     return fence;
 }
@@ -31,7 +31,7 @@ Fence::~Fence() {
 
 bool Fence::reached_within(std::chrono::nanoseconds time) const {
     if (!sync_) return true;
-    // Who only asks keeps its turn: to get it back it might wait.
+    // A poll keeps the driver lock, since getting it back could block.
     std::optional<DriverLock::Pause> pause;
     if (time.count() > 0) pause.emplace();
     const GLenum outcome = glClientWaitSync(sync_, 0, static_cast<GLuint64>(time.count()));

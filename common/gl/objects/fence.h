@@ -6,27 +6,27 @@
 
 namespace vantage {
 
-/// A point in a context's commands that other threads, and contexts that share with it, can wait
-/// for. Move-only; may be used and destroyed under any context of the sharing group. Without a
-/// point (the default) it counts as reached.
+/// A point in the command stream of a context, for which threads and contexts of its sharing group
+/// can wait. Move-only; may be used and destroyed under any context of the group. A
+/// default-constructed fence counts as reached.
 class Fence {
   public:
     Fence() = default;
-    /// The point after what the current context was given so far, which is sent on its way.
+    /// Inserts a fence after the commands issued so far, and flushes them.
     static Fence insert();
     Fence(Fence&& other) noexcept;
     Fence& operator=(Fence&& other) noexcept;
     ~Fence();
 
-    /// Whether the GPU got there; never waits. Throws Error if the GPU is lost.
+    /// Whether the GPU has reached the point; never waits. Throws Error if the GPU is lost.
     bool reached() const { return reached_within(std::chrono::nanoseconds(0)); }
-    /// This thread waits until the GPU gets there, or for `time`; whether it did. Throws Error if
-    /// the GPU is lost.
+    /// Waits up to `time` for the GPU; returns whether it reached the point. Throws Error if the
+    /// GPU is lost.
     bool reached_within(std::chrono::nanoseconds time) const;
-    /// This thread waits until the GPU gets there, however long that takes. Throws ContextLost with
-    /// `doing` if it was reset, Error if it is lost.
+    /// Waits for the GPU without a limit. Throws ContextLost with `doing` if it was reset, Error if
+    /// it is lost.
     void wait(const char* doing) const;
-    /// The current context's later commands wait for the point; this thread does not.
+    /// Makes later commands of the current context wait for the point; the thread does not wait.
     void hold_current_context() const;
 
   private:

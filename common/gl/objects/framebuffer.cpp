@@ -45,7 +45,7 @@ void Framebuffer::bind() const {
 
 namespace {
 
-/// What the driver gives of the target that is bound for reading.
+/// The layout in which the driver reads the framebuffer that is bound for reading.
 PixelLayout readable_layout(TextureFormat format) {
     const TextureFormatInfo info = format_info(format);
     GLint native_format = 0, native_type = 0;
@@ -54,7 +54,7 @@ PixelLayout readable_layout(TextureFormat format) {
     if (static_cast<GLenum>(native_format) == info.format &&
         static_cast<GLenum>(native_type) == info.type)
         return {info.format, info.type, info.cv_type};
-    // ES promises only four-channel reads: RGBA8, RGBA_INTEGER 32-bit, RGBA float.
+    // OpenGL ES guarantees only four-channel reads: RGBA8, RGBA_INTEGER 32-bit, RGBA float.
     const int depth = CV_MAT_DEPTH(info.cv_type);
     if (depth == CV_32F || depth == CV_16F) return {GL_RGBA, GL_FLOAT, CV_32FC4};
     if (info.format == GL_RED_INTEGER || info.format == GL_RG_INTEGER ||

@@ -13,32 +13,31 @@ namespace vantage {
 
 inline void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 
-/// Pixels as a driver reads them back; their channels may be more and wider than the texture's.
+/// The layout of pixels that a driver reads back; may have more or wider channels than the texture.
 struct PixelLayout {
     GLenum format = 0, type = 0;
     int cv_type = 0;
 };
-/// Pixels of such a layout as the format's own cv_type; shared where they are that.
+/// Converts pixels to the format's own cv_type; shares the data if they already have it.
 cv::Mat in_format(const cv::Mat& pixels, TextureFormat format);
 
 /// Draws into one to four textures of one size, with an optional depth texture. The textures must
 /// outlive it.
 class Framebuffer {
   public:
-    /// Throws Error if there are more than four colour targets or the driver cannot render to this
-    /// combination.
+    /// Throws Error for more than four colour targets or a combination that the driver cannot draw.
     explicit Framebuffer(std::initializer_list<const Texture*> colour_targets,
                          const Texture* depth_target = nullptr);
 
     /// Binds it for drawing and sets the viewport to its full size.
     void bind() const;
 
-    /// Reads one colour target back into `image` (of the texture's size and cv_type; rows top-down
-    /// as drawn). The previous framebuffer binding is restored. Waits for the GPU.
+    /// Reads one colour target into `image` (of the texture's size and cv_type, top row first).
+    /// Restores the framebuffer binding. Waits for the GPU.
     void read(int target, cv::Mat& image) const;
 
-    /// For those that read on their own: called with the target bound for reading and with what
-    /// glReadPixels gives of it.
+    /// Calls `read` with the target bound for reading and the layout that glReadPixels returns, for
+    /// callers that read on their own.
     void read_with(int target, const std::function<void(const PixelLayout&)>& read) const;
 
     cv::Size size() const { return size_; }

@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-/// Owns one GL object name; deletes it with Delete. Move-only. The context that made it must be
-/// current at destruction.
+/// Owns one GL object name and deletes it with Delete. Move-only. A context of its sharing group
+/// must be current at destruction.
 template <auto Delete>
 class GlHandle {
   public:

@@ -21,8 +21,8 @@ Function load(const char* name) {
 
 void delete_timer_query(GLuint name) { glDeleteQueries(1, &name); }
 
-// Mesa's software renderers list the extension, and their queries time the recording of commands:
-// some microseconds for any compute work, and garbage for the first span.
+// Mesa's software renderers list the extension, but their queries time the recording of commands:
+// a few microseconds for any compute work, and garbage for the first span.
 GpuTimer::GpuTimer()
     : uses_queries_(has_gl_extension("GL_EXT_disjoint_timer_query") &&
                     !GlInfo::query().is_software) {
@@ -59,7 +59,7 @@ double GpuTimer::wait_ms() {
             load<PFNGLGETQUERYOBJECTUI64VEXTPROC>("glGetQueryObjectui64vEXT");
         GLuint64 ns = 0;
         get_result(query_.name(), GL_QUERY_RESULT, &ns);
-        // The GPU's clock was changed meanwhile: what it counted is no time.
+        // The GPU's clock frequency changed during the span, so the count is no time.
         GLint is_disjoint = GL_FALSE;
         glGetIntegerv(GL_GPU_DISJOINT_EXT, &is_disjoint);
         if (!is_disjoint) last_ms_ = static_cast<double>(ns) * 1e-6;

@@ -12,22 +12,22 @@ namespace vantage {
 
 void delete_timer_query(GLuint name);
 
-/// Times GPU work between begin() and end() with EXT_disjoint_timer_query where a GPU's driver has
-/// it, else by waiting for the GPU at both ends and reading the clock. One timer times one span at
-/// a time; spans of several timers must not nest (the extension allows one at a time).
+/// Times GPU work between begin() and end(), with EXT_disjoint_timer_query on GPUs that have it,
+/// otherwise by waiting for the GPU at both ends. One timer times one span at a time; spans of
+/// several timers must not nest, which the extension forbids.
 class GpuTimer {
   public:
     GpuTimer();
 
-    /// False: begin() and end() wait for the GPU.
+    /// Whether timer queries are used. If not, begin() and end() wait for the GPU.
     bool is_of_gpu() const { return uses_queries_; }
 
     void begin();
     void end();
-    /// Milliseconds of the last span, or of the one before where the GPU's clock was disturbed;
-    /// waits until the GPU has finished it.
+    /// Milliseconds of the last span, or of the one before if the GPU's clock was disturbed. Waits
+    /// until the GPU has finished it.
     double wait_ms();
-    /// The same without waiting: empty while the GPU is still at it (or before any span).
+    /// The same without waiting: empty before any span and until the GPU has finished it.
     std::optional<double> poll_ms();
 
   private:
@@ -38,8 +38,7 @@ class GpuTimer {
     double last_ms_ = 0;
 };
 
-/// Milliseconds that the GPU takes for the commands `work` issues: the median of `repeats` runs (at
-/// least 1), each waited for.
+/// The median GPU time of `work` in ms over `repeats` runs (at least 1), waiting for each.
 double median_gpu_ms(int repeats, const std::function<void()>& work);
 
 }  // namespace vantage

@@ -67,7 +67,7 @@ class Program {
     void set(std::string_view name, const Eigen::Vector4f& value);
     void set(std::string_view name, const Eigen::Matrix3f& value);
     void set(std::string_view name, const Eigen::Matrix4f& value);
-    /// An array of vec4 from its first element on.
+    /// An array of vec4, from its first element.
     void set(std::string_view name, std::span<const Eigen::Vector4f> values);
     /// Element `index` of an array.
     template <class Value>

@@ -8,17 +8,17 @@
 
 namespace vantage {
 
-/// A picture on its way back from the GPU, through a buffer of the driver's: begun at one time and
-/// taken at another, so that neither waits for what was drawn later, and work is done meanwhile.
-/// One picture at a time; the context that was current at the first begin() must be current at
-/// every call.
+/// Reads an image back from the GPU asynchronously, through a pixel buffer: begin() starts the
+/// copy and take() returns it later, so that the caller can work meanwhile and never waits for
+/// draws issued after begin(). One image at a time; the context that was current at the first
+/// begin() must be current at every call.
 class Readback {
   public:
-    /// Of the texture as everything drawn so far leaves it; what is drawn later changes nothing.
+    /// Copies the texture as it is after the commands issued so far.
     void begin(const Texture& texture);
     bool is_begun() const { return layout_.has_value(); }
-    /// Waits until it is here. `pixels`: memory for it, where that has its size and type.
-    /// Precondition: is_begun(), which it is not afterwards.
+    /// Waits for the copy. `pixels`: memory to reuse if its size and type match. Precondition:
+    /// is_begun(), which is false afterwards.
     cv::Mat take(cv::Mat pixels = {});
 
   private:

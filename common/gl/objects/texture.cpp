@@ -65,7 +65,7 @@ Texture::Texture(TextureFormat format, int width_px, int height_px, Filter filte
     handle_ = GlHandle<delete_texture>(name);
     glBindTexture(GL_TEXTURE_2D, name);
     if (format == TextureFormat::bgra8)
-        // Its extension has no sized format, as storage asks for.
+        // EXT_texture_format_BGRA8888 has no sized format, which glTexStorage2D needs.
         glTexImage2D(GL_TEXTURE_2D, 0, GL_BGRA_EXT, width_px, height_px, 0, GL_BGRA_EXT,
                      GL_UNSIGNED_BYTE, nullptr);
     else
@@ -87,7 +87,7 @@ void Texture::upload(const cv::Mat& image) {
     glBindTexture(GL_TEXTURE_2D, handle_.name());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     const bool padded = !image.isContinuous();
-    // Row length counts pixels; a stride that is no multiple of a pixel needs a packed copy.
+    // GL's row length counts pixels; a stride that is not a multiple of a pixel needs a copy.
     cv::Mat source = image;
     if (padded && image.step[0] % static_cast<std::size_t>(info.bytes_per_pixel) != 0)
         source = image.clone();

@@ -11,13 +11,13 @@ namespace vantage {
 
 inline void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
 
-/// Formats that Vantage uses; all but bgra8 are core in ES 3.1.
+/// The texel formats in use. All but bgra8 are core in OpenGL ES 3.1.
 enum class TextureFormat {
     r8,
     rg8,
     rgba8,  // normalised
-    bgra8,  // as windows have it: drawn to and downloaded as rgba8, not uploaded; where
-            // EXT_texture_format_BGRA8888 is there
+    bgra8,  // the format of windows; drawn to and downloaded as rgba8, never uploaded; needs
+            // EXT_texture_format_BGRA8888
     r8ui,
     r16ui,
     r32ui,
@@ -29,7 +29,7 @@ enum class TextureFormat {
     rgba16f,
     r32f,
     rg32f,
-    rgba32f,  // float: colour targets where EXT_color_buffer_float is there
+    rgba32f,  // float: a colour target only with EXT_color_buffer_float
     depth24,
     depth32f,
 };
@@ -37,25 +37,23 @@ enum class TextureFormat {
 struct TextureFormatInfo {
     GLenum internal_format, format, type;
     int bytes_per_pixel;
-    int cv_type;  ///< of a cv::Mat that holds the same texels; -1 where there is none
+    int cv_type;  ///< cv::Mat type with the same texels; -1: none
 };
 TextureFormatInfo format_info(TextureFormat format);
 
 enum class Filter { nearest, linear };
 
-/// A 2-D texture whose size does not change, one level (or a full mip chain where asked for),
-/// clamped at the edges.
+/// A 2-D texture of fixed size with one level or a full mip chain, clamped at the edges.
 class Texture {
   public:
-    /// Throws Error if the size is not within 1..PiLimits::max_image_side_px or memory is short.
+    /// Throws Error if a side is not 1 to PiLimits::max_image_side_px, or if memory runs out.
     Texture(TextureFormat format, int width_px, int height_px, Filter filter = Filter::nearest,
             bool mipmapped = false);
 
-    /// `image` must be width x height of the format's cv_type; rows may be padded.
+    /// `image` is width x height of the format's cv_type; rows may be padded.
     void upload(const cv::Mat& image);
     void generate_mipmaps();
-    /// Reads back through a framebuffer; for tests, files and the CPU's end of the road. Waits for
-    /// the GPU.
+    /// Reads the texture back through a framebuffer, for tests and files. Waits for the GPU.
     cv::Mat download() const;
 
     void bind(int unit) const;

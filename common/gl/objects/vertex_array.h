@@ -8,7 +8,7 @@ namespace vantage {
 
 inline void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
 
-/// A vertex array object; an empty one serves draws whose vertices come from gl_VertexID.
+/// A vertex array object. An empty one serves draws whose vertices come from gl_VertexID.
 class VertexArray {
   public:
     VertexArray() {

@@ -14,7 +14,7 @@
 namespace vantage {
 namespace {
 
-/// Heads of elements that lie close together are read at once.
+/// Element heads that lie close together are read in one go.
 constexpr std::size_t window_bytes = 4096;
 constexpr std::size_t search_bytes = 1 << 20;
 constexpr std::size_t longest_head = 12;
@@ -26,7 +26,7 @@ EbmlFile::EbmlFile(const std::filesystem::path& path)
     if (!fd_) fail("cannot read {}: {}", path_.string(), std::strerror(errno));
     struct stat facts {};
     if (fstat(fd_.get(), &facts) != 0 || !S_ISREG(facts.st_mode))
-        fail("cannot read {}: it is no file", path_.string());
+        fail("cannot read {}: it is not a file", path_.string());
     size_ = static_cast<std::uint64_t>(facts.st_size);
 }
 
@@ -39,7 +39,7 @@ std::vector<std::byte> EbmlFile::bytes(std::uint64_t at, std::size_t count) cons
             ::pread(fd_.get(), read.data() + done, count - done, static_cast<off_t>(at + done));
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) fail("cannot read {} at {}: {}", path_.string(), at, std::strerror(errno));
-        if (n == 0) fail("{} was made shorter while it was read", path_.string());
+        if (n == 0) fail("{} was truncated while it was read", path_.string());
         done += static_cast<std::size_t>(n);
     }
     return read;
@@ -78,7 +78,7 @@ std::optional<EbmlFile::Element> EbmlFile::element(std::uint64_t at, std::uint64
     const std::optional<VarInt> size = var_int(head.subspan(id->length));
     if (!size) return std::nullopt;
     Element element;
-    // Identifiers are known by their marker too.
+    // An element's identifier includes its length marker.
     element.id = id->value | std::uint64_t{1} << (7 * id->length);
     element.at = at;
     element.inside = at + id->length + size->length;

@@ -33,7 +33,7 @@ bool is_ffv1(const TakePictures& pictures) { return pictures.codec == TakePictur
 
 TakeRig take_rig_of(const FrameHead& head) {
     if (head.frame.content == RigFrame::Content::raw_pair)
-        fail("rig {} sends raw pairs, and a take holds views", head.frame.rig);
+        fail("rig {} sends raw pairs, but a take holds views", head.frame.rig);
     TakeRig rig;
     rig.name = head.frame.rig;
     rig.colour = {codec_of(head.colour), colour_px(head), {}};
@@ -53,11 +53,11 @@ FrameStorer::FrameStorer(const TakeRig& rig) : rig_(rig) {
 StoredFrame FrameStorer::store(const PackedFrame& frame) {
     const FrameHead head = decode_frame_head(frame.header);
     if (head.frame.content == RigFrame::Content::raw_pair)
-        fail("rig {} sends raw pairs, and a take holds views", rig_.name);
+        fail("rig {} sends raw pairs, but a take holds views", rig_.name);
     if (codec_of(head.colour) != rig_.colour.codec || colour_px(head) != rig_.colour.size_px ||
         head.disparity_px != rig_.depth.size_px)
         fail(
-            "rig {} sends pictures of {} and disparities of {}, and the take's tracks are for {} "
+            "rig {} sends images of {} and disparities of {}, but the take's tracks have {} "
             "and {}; begin another take",
             rig_.name, size_text(colour_px(head)), size_text(head.disparity_px),
             size_text(rig_.colour.size_px), size_text(rig_.depth.size_px));
@@ -94,7 +94,7 @@ RigFrame FrameRestorer::restore(const StoredFrame& stored) {
         (has_colour && codec_of(head.colour) != rig_.colour.codec) ||
         (has_colour && colour_px(head) != rig_.colour.size_px) ||
         (has_depth && head.disparity_px != rig_.depth.size_px))
-        fail("a frame of rig {} does not fit the tracks that it is in", rig_.name);
+        fail("a frame of rig {} does not fit its tracks", rig_.name);
     if (has_colour && colour_) {
         frame.colour = ColourImage(colour_->decode(stored.colour));
     } else if (has_colour) {

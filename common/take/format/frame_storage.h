@@ -10,16 +10,16 @@
 
 namespace vantage {
 
-/// The tracks that frames like this one need. Throws Error for a raw pair: a take holds views.
+/// The tracks for frames like this one. Throws Error for a raw pair: a take holds views only.
 TakeRig take_rig_of(const FrameHead& head);
 
-/// Brings what one rig sends into the form of its tracks: a JPEG stays as it came, and disparity,
-/// and colour that came lossless, become FFV1. Not thread-safe.
+/// Converts the frames of one rig to the form of its tracks: a JPEG stays as it came; disparity and
+/// lossless colour become FFV1. Not thread-safe.
 class FrameStorer {
   public:
     explicit FrameStorer(const TakeRig& rig);
 
-    /// Throws Error if the frame is damaged, or of another size or coding than the tracks.
+    /// Throws Error if the frame is damaged, or has another size or codec than the tracks.
     StoredFrame store(const PackedFrame& frame);
 
   private:
@@ -29,7 +29,7 @@ class FrameStorer {
     DisparityDecoder disparity_;
 };
 
-/// The way back: what the host would have decoded, bit for bit. Not thread-safe.
+/// Decodes stored frames to what the host would have decoded, bit for bit. Not thread-safe.
 class FrameRestorer {
   public:
     explicit FrameRestorer(const TakeRig& rig);

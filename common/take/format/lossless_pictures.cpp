@@ -13,11 +13,11 @@ extern "C" {
 namespace vantage {
 namespace {
 
-/// FFV1 takes 4 and more; more of them cost bytes.
+/// FFV1's minimum; more slices cost bytes.
 constexpr int slices = 4;
 
-/// FFV1 knows B, G, R, A and our pictures are R, G, B, A: the names of the channels are of no
-/// interest to it, and a player would show red as blue. So they are swapped.
+/// FFV1 has B, G, R, A and our images R, G, B, A. The codec does not care, but a player would swap
+/// red and blue, so the channels are swapped.
 AVPixelFormat pixel_format(int type) {
     return type == CV_16UC1 ? AV_PIX_FMT_GRAY16LE : AV_PIX_FMT_BGRA;
 }
@@ -38,7 +38,7 @@ void check(int code, const char* what) {
 
 LosslessPictureEncoder::LosslessPictureEncoder(cv::Size size_px, int type) {
     const AVCodec* codec = avcodec_find_encoder(AV_CODEC_ID_FFV1);
-    if (!codec) fail("this FFmpeg comes without FFV1, which takes are written with");
+    if (!codec) fail("this FFmpeg has no FFV1 encoder, which takes need");
     codec_.reset(avcodec_alloc_context3(codec));
     codec_->width = size_px.width;
     codec_->height = size_px.height;
@@ -51,13 +51,13 @@ LosslessPictureEncoder::LosslessPictureEncoder(cv::Size size_px, int type) {
     codec_->thread_type = FF_THREAD_SLICE;
     av_opt_set_int(codec_->priv_data, "slicecrc", 1, 0);
     av_opt_set(codec_->priv_data, "coder", "range_tab", 0);
-    check(avcodec_open2(codec_.get(), codec, nullptr), "be started");
+    check(avcodec_open2(codec_.get(), codec, nullptr), "start");
     frame_.reset(av_frame_alloc());
     packet_.reset(av_packet_alloc());
     frame_->format = codec_->pix_fmt;
     frame_->width = size_px.width;
     frame_->height = size_px.height;
-    check(av_frame_get_buffer(frame_.get(), 0), "take memory");
+    check(av_frame_get_buffer(frame_.get(), 0), "allocate memory");
 }
 
 std::vector<std::byte> LosslessPictureEncoder::setup() const {
@@ -66,7 +66,7 @@ std::vector<std::byte> LosslessPictureEncoder::setup() const {
 }
 
 std::vector<std::byte> LosslessPictureEncoder::encode(const cv::Mat& picture) {
-    check(av_frame_make_writable(frame_.get()), "take memory");
+    check(av_frame_make_writable(frame_.get()), "allocate memory");
     const auto row_bytes = static_cast<std::size_t>(picture.cols) * picture.elemSize();
     for (int y = 0; y < picture.rows; ++y) {
         std::uint8_t* row = frame_->data[0] + static_cast<std::ptrdiff_t>(y) * frame_->linesize[0];
@@ -74,8 +74,8 @@ std::vector<std::byte> LosslessPictureEncoder::encode(const cv::Mat& picture) {
         if (frame_->format == AV_PIX_FMT_BGRA) swap_red_and_blue(row, picture.cols);
     }
     frame_->pts = number_++;
-    check(avcodec_send_frame(codec_.get(), frame_.get()), "take a picture");
-    check(avcodec_receive_packet(codec_.get(), packet_.get()), "code a picture");
+    check(avcodec_send_frame(codec_.get(), frame_.get()), "take a frame");
+    check(avcodec_receive_packet(codec_.get(), packet_.get()), "encode a frame");
     const auto* bytes = reinterpret_cast<const std::byte*>(packet_->data);
     std::vector<std::byte> coded(bytes, bytes + packet_->size);
     av_packet_unref(packet_.get());
@@ -86,35 +86,35 @@ LosslessPictureDecoder::LosslessPictureDecoder(cv::Size size_px, int type,
                                                std::span<const std::byte> setup)
     : size_px_(size_px), type_(type) {
     const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_FFV1);
-    if (!codec) fail("this FFmpeg comes without FFV1, which takes are read with");
+    if (!codec) fail("this FFmpeg has no FFV1 decoder, which takes need");
     codec_.reset(avcodec_alloc_context3(codec));
     codec_->width = size_px.width;
     codec_->height = size_px.height;
     codec_->thread_count = threads();
     codec_->thread_type = FF_THREAD_SLICE;
-    // A slice that is damaged is an error and no picture with a hole.
+    // A damaged slice is an error, not a frame with a hole.
     codec_->err_recognition = AV_EF_CRCCHECK | AV_EF_EXPLODE;
     codec_->extradata =
         static_cast<std::uint8_t*>(av_mallocz(setup.size() + AV_INPUT_BUFFER_PADDING_SIZE));
     std::memcpy(codec_->extradata, setup.data(), setup.size());
     codec_->extradata_size = static_cast<int>(setup.size());
-    check(avcodec_open2(codec_.get(), codec, nullptr), "be started");
+    check(avcodec_open2(codec_.get(), codec, nullptr), "start");
     frame_.reset(av_frame_alloc());
     packet_.reset(av_packet_alloc());
 }
 
 cv::Mat LosslessPictureDecoder::decode(std::span<const std::byte> bytes) {
-    check(av_new_packet(packet_.get(), static_cast<int>(bytes.size())), "take memory");
+    check(av_new_packet(packet_.get(), static_cast<int>(bytes.size())), "allocate memory");
     std::memcpy(packet_->data, bytes.data(), bytes.size());
     const int sent = avcodec_send_packet(codec_.get(), packet_.get());
     av_packet_unref(packet_.get());
     const int received = sent < 0 ? sent : avcodec_receive_frame(codec_.get(), frame_.get());
-    // The decoder says of some damage only that its picture is not right.
+    // For some damage the decoder only marks its frame as corrupt.
     if (received < 0 || (frame_->flags & AV_FRAME_FLAG_CORRUPT) != 0 ||
         frame_->decode_error_flags != 0 || frame_->format != pixel_format(type_) ||
         frame_->width != size_px_.width || frame_->height != size_px_.height) {
         av_frame_unref(frame_.get());
-        fail("a lossless picture of {} bytes is damaged", bytes.size());
+        fail("a lossless image of {} bytes is damaged", bytes.size());
     }
     cv::Mat picture(size_px_, type_);
     const auto row_bytes = static_cast<std::size_t>(picture.cols) * picture.elemSize();

@@ -9,14 +9,14 @@
 
 namespace vantage {
 
-/// Pictures of one size and kind (DisparityImage or ColourImage) as FFV1: lossless, every picture
-/// by itself, in slices that carry a CRC and are coded by several threads. Not thread-safe.
+/// Encodes images of one size and type (DisparityImage or ColourImage) as FFV1: lossless,
+/// intra-only, in slices with a CRC that several threads encode. Not thread-safe.
 class LosslessPictureEncoder {
   public:
-    /// `type`: CV_16UC1 or CV_8UC4. Throws Error if FFmpeg comes without FFV1.
+    /// `type`: CV_16UC1 or CV_8UC4. Throws Error if FFmpeg has no FFV1.
     LosslessPictureEncoder(cv::Size size_px, int type);
 
-    /// What a decoder needs to know beforehand.
+    /// The codec's header, which a decoder needs first.
     std::vector<std::byte> setup() const;
     std::vector<std::byte> encode(const cv::Mat& picture);
 
@@ -31,7 +31,7 @@ class LosslessPictureDecoder {
   public:
     LosslessPictureDecoder(cv::Size size_px, int type, std::span<const std::byte> setup);
 
-    /// Throws Error unless the bytes are exactly one whole picture.
+    /// Throws Error unless the bytes are exactly one complete image.
     cv::Mat decode(std::span<const std::byte> bytes);
 
   private:

@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
-#include "common/base/files/data_sync.h"
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 namespace {
@@ -20,12 +20,11 @@ constexpr int buffer_bytes = 256 * 1024;
 TakeFile::TakeFile(const std::filesystem::path& path)
     : fd_(::open(path.c_str(), O_CREAT | O_EXCL | O_RDWR | O_CLOEXEC, 0644)) {
     if (!fd_ && errno == EEXIST)
-        fail("{} is there already, and a take never replaces a file: take another name",
-             path.string());
+        fail("{} exists, and a take never replaces a file: choose another name", path.string());
     if (!fd_) fail("cannot write {}: {}", path.string(), std::strerror(errno));
     auto* buffer = static_cast<std::uint8_t*>(av_malloc(buffer_bytes));
     io_ = avio_alloc_context(buffer, buffer_bytes, 1, this, nullptr, write, seek);
-    if (!io_) fail("cannot write {}: memory is short", path.string());
+    if (!io_) fail("cannot write {}: out of memory", path.string());
 }
 
 TakeFile::~TakeFile() {
@@ -35,7 +34,7 @@ TakeFile::~TakeFile() {
 
 int TakeFile::write(void* opaque, WrittenByte* bytes, int size) {
     TakeFile& self = *static_cast<TakeFile*>(opaque);
-    // After a failure nothing more: what is there stays what it is.
+    // After a failure nothing more is written, so that the file stays readable.
     if (self.failure_ != 0) return AVERROR(self.failure_);
     for (int done = 0; done < size;) {
         const ssize_t n =

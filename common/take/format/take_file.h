@@ -9,10 +9,10 @@
 
 namespace vantage {
 
-/// A new file that libavformat writes through. Never replaces one.
+/// A new file that libavformat writes through. Never replaces a file. Not thread-safe.
 class TakeFile {
   public:
-    /// Throws Error if there is such a file, or none can be made.
+    /// Throws Error if the file exists or cannot be created.
     explicit TakeFile(const std::filesystem::path& path);
     ~TakeFile();
     TakeFile(const TakeFile&) = delete;
@@ -20,17 +20,16 @@ class TakeFile {
 
     AVIOContext* io() { return io_; }
     std::uint64_t bytes() const { return static_cast<std::uint64_t>(end_); }
-    /// The system's reason for the first write that failed, or for what was written and did not get
-    /// to the disk; 0: there is none.
+    /// errno of the first failed write, or of data that did not reach the disk; 0: none.
     int failure() const { return failure_; }
-    /// What is written so far is whole...
+    /// Marks the end of what is written so far as a good end...
     void mark_whole() { whole_ = end_; }
-    /// ...and what came after it is taken off again.
+    /// ...and truncates the file to the last mark.
     void cut_to_whole();
-    /// Waits until it is on the disk.
+    /// Waits until the data is on disk.
     void sync();
-    /// Sees to it that it gets there; one at a time, so that what is written meanwhile need not
-    /// wait for a slow disk. False: the last one still goes on.
+    /// Starts a sync on another thread, so that writing does not wait for a slow disk. False: the
+    /// last one still runs.
     bool begin_sync();
 
   private:
@@ -41,14 +40,14 @@ class TakeFile {
 #endif
     static int write(void* self, WrittenByte* bytes, int size);
     static std::int64_t seek(void* self, std::int64_t offset, int whence);
-    /// Keeps what became of the sync that is under way, if one is.
+    /// Stores the result of a finished sync.
     void take_up_sync();
 
     UniqueFd fd_;
     AVIOContext* io_ = nullptr;
     std::int64_t at_ = 0, end_ = 0, whole_ = 0;
     int failure_ = 0;
-    std::future<int> syncing_;  ///< ends before fd_ does
+    std::future<int> syncing_;  ///< has to end before fd_ does
 };
 
 }  // namespace vantage

@@ -35,7 +35,7 @@ std::vector<std::byte> from_base64(const std::string& text) {
     const int size = bytes.empty() ? 0
                                    : av_base64_decode(reinterpret_cast<std::uint8_t*>(bytes.data()),
                                                       text.c_str(), static_cast<int>(bytes.size()));
-    if (size < 0) fail("a frame's record holds a header that is no base64");
+    if (size < 0) fail("a frame's record holds a header that is not base64");
     bytes.resize(static_cast<std::size_t>(size));
     return bytes;
 }
@@ -54,11 +54,11 @@ nlohmann::json unsealed(std::string_view text, std::string_view what) {
             hex(crc32(std::as_bytes(std::span(text.substr(0, at))))))
         fail("a {}'s record of {} bytes is damaged", what, text.size());
     nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
-    if (!json.is_object()) fail("a {}'s record of {} bytes is no JSON", what, text.size());
+    if (!json.is_object()) fail("a {}'s record of {} bytes is not JSON", what, text.size());
     return json;
 }
 
-/// Whether the JSON is a number that the type holds: others cannot even be asked for.
+/// Whether the JSON is a number that the type can hold.
 template <class T, class Json>
 bool is_number_of(const Json& json) {
     if constexpr (std::is_floating_point_v<T>)
@@ -69,20 +69,20 @@ bool is_number_of(const Json& json) {
         return json.is_number_integer() && std::in_range<T>(json.template get<std::int64_t>());
 }
 
-/// Numbers that are there and are numbers of the kind; the rest is a record of another program.
+/// Reads a number; a missing one, or one of another type, makes the record invalid.
 template <class T>
 T number(const nlohmann::json& json, const char* key) {
     const auto found = json.find(key);
     if (found == json.end() || !is_number_of<T>(*found))
-        fail("a record has no number {}, or one that cannot be", key);
+        fail("a record has no valid number {}", key);
     return found->get<T>();
 }
 
-/// The same of take.json.
+/// The same for take.json.
 template <class T>
 T fact(const nlohmann::ordered_json& json, const char* key) {
     const auto& value = json.at(key);
-    if (!is_number_of<T>(value)) fail("its {} is no number that can be", key);
+    if (!is_number_of<T>(value)) fail("its {} is not a valid number", key);
     return value.template get<T>();
 }
 
@@ -146,7 +146,7 @@ TakeFacts take_facts_from(std::string_view text) {
         facts.origin = tai_from_ns(fact<std::int64_t>(json, "origin_tai_ns"));
         constexpr std::int64_t latest_ns = std::int64_t{1} << 62;
         if (to_ns(facts.origin) < 0 || to_ns(facts.origin) > latest_ns)
-            fail("its origin of {} ns is no time", to_ns(facts.origin));
+            fail("its origin of {} ns is not a valid time", to_ns(facts.origin));
         facts.timecode = json.at("timecode").get<std::string>();
         facts.tai_offset_s = fact<int>(json, "tai_offset_s");
         constexpr int most_offset_s = 1000;
@@ -163,7 +163,7 @@ TakeFacts take_facts_from(std::string_view text) {
         facts.show = json.at("show");
         return facts;
     } catch (const nlohmann::json::exception&) {
-        fail("its take.json is not what Vantage writes");
+        fail("its take.json was not written by Vantage");
     }
 }
 
@@ -202,7 +202,7 @@ FrameRecord frame_record_from(std::string_view text) {
         fail("a frame's record lacks a part");
     record.is_synchronized = synchronized->get<bool>();
     record.exposure = tai_from_ns(number<std::int64_t>(json, "exposure_tai_ns"));
-    if (to_ns(record.exposure) < 0) fail("a frame's record says that it was exposed before 1970");
+    if (to_ns(record.exposure) < 0) fail("a frame's record has an exposure before 1970");
     record.arrival = tai_from_ns(number<std::int64_t>(json, "arrival_tai_ns"));
     record.gap = number<std::uint64_t>(json, "gap");
     record.dropped = number<std::uint64_t>(json, "dropped");
@@ -230,10 +230,10 @@ SoundRecord sound_record_from(std::string_view text) {
     SoundRecord record{number<std::int64_t>(json, "first_sample"),
                        number<std::uint32_t>(json, "samples"),
                        number<std::uint32_t>(json, "sound_crc32")};
-    // Within the times that nanoseconds count, and no longer than a second.
+    // Within the range of nanosecond times, and at most one second long.
     constexpr std::int64_t most = (std::int64_t{1} << 62) / nanoseconds_per_second * sound_rate_hz;
     if (record.first < 0 || record.first > most || record.count < 1 || record.count > sound_rate_hz)
-        fail("a sound's record names samples that cannot be");
+        fail("a sound's record has an invalid range of samples");
     return record;
 }
 
@@ -286,7 +286,7 @@ CameraRecord camera_record_from(std::string_view text) {
     if (record.pulse > max_trigger_index)
         fail("a camera's record names pulse {}, beyond {}", record.pulse, max_trigger_index);
     record.time = tai_from_ns(number<std::int64_t>(json, "time_tai_ns"));
-    if (to_ns(record.time) < 0) fail("a camera's record says that it was before 1970");
+    if (to_ns(record.time) < 0) fail("a camera's record has a time before 1970");
     const auto pose = json.find("world_from_camera");
     if (pose == json.end() || !pose->is_array() || pose->size() != 12)
         fail("a camera's record has no pose of twelve numbers");

@@ -24,7 +24,7 @@ std::string_view name_of(Chroma chroma) {
 Chroma parse_chroma(std::string_view name) {
     for (const Chroma chroma : all_chromas)
         if (name == name_of(chroma)) return chroma;
-    fail("chroma '{}' is none of 4:4:4, 4:2:2 and 4:2:0", name);
+    fail("chroma '{}' is not one of 4:4:4, 4:2:2 and 4:2:0", name);
 }
 
 }  // namespace vantage

@@ -4,14 +4,14 @@
 
 namespace vantage {
 
-/// How finely a JPEG has what tells its colours from grey: of every pixel, of two beside each
-/// other, of four in a square. A Bayer sensor sees no more of it than the last.
+/// The chroma subsampling of a JPEG: none, horizontal, or horizontal and vertical. A Bayer sensor
+/// has no more chroma resolution than the last.
 enum class Chroma { full, half, quarter };
 
-/// As people write them: "4:4:4", "4:2:2", "4:2:0".
+/// The usual notation: "4:4:4", "4:2:2", "4:2:0".
 std::string_view name_of(Chroma chroma);
 
-/// Throws Error naming those that there are.
+/// Throws Error with the known names.
 Chroma parse_chroma(std::string_view name);
 
 }  // namespace vantage

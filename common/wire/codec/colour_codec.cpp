@@ -72,8 +72,8 @@ ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px
              width_px, height_px);
     if (colour_space != TJCS_YCbCr) fail("the colour payload is a JPEG, but not in YCbCr");
     auto colour = pictures_.take<ColourImage>({width_px, height_px});
-    // A damaged or truncated picture is only a warning to the library, which fills it up with grey;
-    // the scan limit keeps a progressive picture of endless scans from holding up the decoder.
+    // The library only warns about a truncated image and fills it with grey. The scan limit stops
+    // a hostile progressive image with endless scans.
     if (tjDecompress2(decompressor_, data, payload.size(), colour.data, width_px,
                       static_cast<int>(colour.step), height_px, TJPF_RGBA,
                       TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS) != 0)
@@ -88,7 +88,7 @@ Chroma JpegDecoder::chroma_of(std::span<const std::byte> payload) {
         fail("the colour payload is not a JPEG picture: {}", trouble());
     for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter})
         if (subsampling == sampling_of(chroma)) return chroma;
-    fail("the colour payload is a JPEG whose chroma is none of 4:4:4, 4:2:2 and 4:2:0");
+    fail("the colour payload is a JPEG whose chroma is not 4:4:4, 4:2:2 or 4:2:0");
 }
 
 std::vector<std::byte> LosslessColourEncoder::encode(const ColourImage& colour) {

@@ -11,9 +11,9 @@
 
 namespace vantage {
 
-/// Lossy colour: JPEG of R, G and B; A comes back as 255. At the same bytes 4:4:4 is nearer to what
-/// was packed, pixel by pixel, than 4:2:0 at a higher quality, and 4:2:0 nearer to what a programme
-/// hands out, whose chroma is halved again (docs/results/takes.md). Not thread-safe.
+/// Lossy colour: a JPEG of R, G and B; A decodes as 255. At equal size, 4:4:4 has smaller errors
+/// per pixel than 4:2:0 at a higher quality, and 4:2:0 smaller errors after a programme's own
+/// chroma subsampling (docs/results/takes.md). Not thread-safe.
 class JpegEncoder {
   public:
     JpegEncoder();
@@ -21,7 +21,7 @@ class JpegEncoder {
     JpegEncoder(const JpegEncoder&) = delete;
     JpegEncoder& operator=(const JpegEncoder&) = delete;
 
-    /// quality 1..100.
+    /// `quality` is 1..100.
     std::vector<std::byte> encode(const ColourImage& colour, int quality, Chroma chroma);
 
   private:
@@ -35,24 +35,24 @@ class JpegDecoder {
     JpegDecoder(const JpegDecoder&) = delete;
     JpegDecoder& operator=(const JpegDecoder&) = delete;
 
-    /// Throws Error unless the payload is one whole colour JPEG of exactly this size; its header is
-    /// checked before memory is taken.
+    /// Throws Error unless the payload is one complete colour JPEG of exactly this size. Checks the
+    /// header before it allocates memory.
     ColourImage decode(std::span<const std::byte> payload, int width_px, int height_px);
 
-    /// Of a payload that was decoded. Throws Error where it is none of those that rigs send.
+    /// The chroma subsampling of a valid payload. Throws Error if it is not one that rigs send.
     Chroma chroma_of(std::span<const std::byte> payload);
 
   private:
-    /// What the library says of a payload that failed. It stays half-way within that picture and
-    /// would fail at the next one too: it begins anew.
+    /// The library's reason for a failure. Recreates the decoder, which would otherwise fail for
+    /// the next image, too.
     std::string trouble();
 
     void* decompressor_;
     PicturePool pictures_;
 };
 
-/// Lossless colour, all four channels: each channel's difference to the pixel above in a plane of
-/// its own, then zstd. Not thread-safe.
+/// Lossless colour with four channels: the difference of each channel to the pixel above, as
+/// separate planes, compressed by zstd. Not thread-safe.
 class LosslessColourEncoder {
   public:
     std::vector<std::byte> encode(const ColourImage& colour);
@@ -64,7 +64,7 @@ class LosslessColourEncoder {
 
 class LosslessColourDecoder {
   public:
-    /// Throws Error unless the payload is exactly a picture of this size.
+    /// Throws Error unless the payload is exactly one image of this size.
     ColourImage decode(std::span<const std::byte> payload, int width_px, int height_px);
 
   private:

@@ -7,7 +7,8 @@
 namespace vantage {
 namespace {
 
-/// The fastest level: above it zstd costs a Raspberry Pi several times the time for a few per cent.
+/// zstd's fastest level: higher ones take several times as long on a Raspberry Pi to save a few
+/// percent.
 constexpr int compression_level = 1;
 
 }  // namespace
@@ -23,7 +24,7 @@ std::vector<std::byte> PayloadCompressor::compress(std::span<const std::byte> ra
     const std::size_t size = ZSTD_compressCCtx(context_, payload.data(), payload.size(), raw.data(),
                                                raw.size(), compression_level);
     if (ZSTD_isError(size))
-        fail("zstd cannot compress a picture of {} bytes: {}", raw.size(), ZSTD_getErrorName(size));
+        fail("zstd cannot compress an image of {} bytes: {}", raw.size(), ZSTD_getErrorName(size));
     payload.resize(size);
     return payload;
 }

@@ -9,7 +9,7 @@
 
 namespace vantage {
 
-/// One zstd frame of level 1 that states its content size; the context is kept between calls. Not
+/// Compresses to one zstd frame that states its content size. Keeps its context between calls. Not
 /// thread-safe.
 class PayloadCompressor {
   public:
@@ -24,7 +24,7 @@ class PayloadCompressor {
     ZSTD_CCtx* context_;
 };
 
-/// The way back. Not thread-safe.
+/// Decompresses one zstd frame. Not thread-safe.
 class PayloadDecompressor {
   public:
     PayloadDecompressor();
@@ -32,9 +32,9 @@ class PayloadDecompressor {
     PayloadDecompressor(const PayloadDecompressor&) = delete;
     PayloadDecompressor& operator=(const PayloadDecompressor&) = delete;
 
-    /// Into a buffer of its own that lives until the next call. Throws Error, naming `what`, unless
-    /// the payload is whole and holds exactly raw_bytes; what it claims is checked before memory is
-    /// taken.
+    /// Returns a buffer that is valid until the next call. Throws Error, naming `what`, unless the
+    /// payload is complete and contains exactly raw_bytes. Checks the stated size before it
+    /// allocates memory.
     std::span<const std::byte> decompress(std::span<const std::byte> payload, std::size_t raw_bytes,
                                           std::string_view what);
 

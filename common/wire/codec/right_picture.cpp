@@ -9,7 +9,7 @@ namespace vantage {
 namespace {
 
 constexpr int quality = 95;
-/// The costs of a match are 160 MB at this size.
+/// The matching costs take 160 MB at this size.
 constexpr double most_pixels = 640 * 480;
 
 }  // namespace

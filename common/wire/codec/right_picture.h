@@ -7,14 +7,14 @@
 
 namespace vantage {
 
-// A rig's rectified right picture, which travels now and then: by what stands still in it a host
-// matches the rig's set.
+// A rig's rectified right image, which it sends occasionally, so that the host can match the
+// rig's background.
 
-/// At which a set of `colour` pixels is matched, where larger ones would take too much: that size,
-/// or a half, a third of it. A rig need not send more of its right picture.
+/// The size at which a background of `colour` pixels is matched: that size, or a half or a third of
+/// it where matching would take too much memory. A rig sends its right image at this size.
 cv::Size background_match_size(cv::Size colour);
 
-/// A JPEG of that size, of whole chroma, for sets are matched to a part of a pixel.
+/// A JPEG of that size with full chroma, since backgrounds are matched to a fraction of a pixel.
 std::vector<std::byte> pack_right_picture(JpegEncoder& jpeg, const ColourImage& right);
 
 }  // namespace vantage

@@ -11,7 +11,6 @@
 #include "common/base/child_process.h"
 #include "common/base/cli/stop_signal.h"
 #include "common/base/cli/version.h"
-#include "common/base/computer.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
@@ -105,7 +104,7 @@ class ReportFolder {
 /// Requests a report of every rig and waits until each has answered or cannot, or until the time is
 /// up.
 ReceiverStatus gather(const StageConfig& stage, double wait_s, const ReportFolder& folder) {
-    StageReceiver receiver(stage, StageReceiver::Purpose::look_on);
+    StageReceiver receiver(stage, StageReceiver::Purpose::observe);
     StopSignal stop;
     receiver.ask_for_reports();
     constexpr std::chrono::seconds to_connect(3);

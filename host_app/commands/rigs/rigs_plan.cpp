@@ -100,7 +100,7 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
     StopSignal stop;
     Scales scales(stage);
     StageReceiver receiver(
-        stage, options.start ? StageReceiver::Purpose::film : StageReceiver::Purpose::look_on,
+        stage, options.start ? StageReceiver::Purpose::film : StageReceiver::Purpose::observe,
         [&](const ArrivedFrame& frame) { scales.see(frame); });
     for (const StageConfig::Rig& rig : stage.rigs) receiver.ask(rig.name, true, 1);
     std::vector<std::shared_ptr<const RigFrame>> latest(stage.rigs.size());

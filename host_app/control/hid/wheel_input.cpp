@@ -10,7 +10,6 @@
 #include "common/base/files/folder.h"
 #include "common/base/log.h"
 #include "common/config/toml_edit.h"
-#include "common/config/toml_text.h"
 
 namespace vantage {
 namespace {

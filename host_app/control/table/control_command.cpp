@@ -11,7 +11,7 @@
 #include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/config/toml_text.h"
+#include "common/config/toml_edit.h"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/config/toml_reader.h"
-#include "common/config/toml_text.h"
+#include "common/config/toml_edit.h"
 #include "host_app/flight/flight_book.h"
 #include "host_app/flight/orbit_view.h"
 

@@ -6,7 +6,7 @@
 
 #include <fcntl.h>
 
-#include "common/base/files/data_sync.h"
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 

@@ -5,7 +5,6 @@
 #include "common/base/error.h"
 #include "common/base/files/output_path.h"
 #include "common/base/time/pulse_grid.h"
-#include "host_app/ltc/ltc_flywheel.h"
 #include "host_app/ltc/ltc_writer.h"
 #include "host_app/output/media/alsa_playback.h"
 #include "host_app/output/media/wav_file.h"

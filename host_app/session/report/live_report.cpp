@@ -76,12 +76,12 @@ std::string outages_of(const RigStatus& status) {
 std::vector<std::string> worries_of(const RigStatus& status) {
     std::vector<std::string> worries = computer_worries_of(status);
     if (status.connected)
-        if (std::string worry = rate_worry(status); !worry.empty())
+        if (std::string worry = rate_warning(status); !worry.empty())
             worries.push_back(std::move(worry));
     if (status.connected && !status.same_clock && !status.sync.disciplined)
         worries.emplace_back(clocks_not_disciplined);
     if (status.connected)
-        if (std::string worry = tai_worry(status); !worry.empty())
+        if (std::string worry = tai_warning(status); !worry.empty())
             worries.push_back(std::move(worry));
     return worries;
 }

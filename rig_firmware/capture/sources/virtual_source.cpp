@@ -24,8 +24,8 @@ class VirtualSource final : public StereoSource {
         : calibration_(rig_calibration(config, {config.source.width_px, config.source.height_px})),
           noise_{config.source.noise_sigma, config.source.seed},
           rig_(calibration_, noise_, config.match.matcher == exact_matcher),
-          set_(config.virtual_rig.set),
-          stage_(shaders_, static_cast<std::uint64_t>(set_)),
+          scene_(config.virtual_rig.scene),
+          stage_(shaders_, static_cast<std::uint64_t>(scene_)),
           pulses_(config.source.rate_hz),
           pacer_(pulses_),
           // Exact depth comes with every frame anew.
@@ -70,9 +70,9 @@ class VirtualSource final : public StereoSource {
 
     std::vector<std::string> report() const override {
         return {fmt::format(
-            "virtual stage, set {}, two {}x{} cameras at {} Hz, noise of {} grey levels, keeps {} "
+            "virtual stage, scene {}, two {}x{} cameras at {} Hz, noise of {} grey levels, keeps {} "
             "of {} pairs of its loop",
-            set_, size().width, size().height, pulses_.rate_hz(), noise_.sigma, loop_.kept(),
+            scene_, size().width, size().height, pulses_.rate_hz(), noise_.sigma, loop_.kept(),
             loop_.room())};
     }
 
@@ -114,7 +114,7 @@ class VirtualSource final : public StereoSource {
     StereoCalibration calibration_;
     SensorNoise noise_;
     VirtualRig rig_;
-    int set_;
+    int scene_;
     VirtualStage stage_;
     PulseGrid pulses_;
     PulsePacer pacer_;

@@ -68,7 +68,7 @@ TEST_F(DiskFaults, ATakeWhoseDiskIsFullEndsAndTheProgrammeGoesOn) {
     const nlohmann::json take = summary["take"];
     EXPECT_EQ(take["state"], "failed");
     EXPECT_THAT(take["failure"].get<std::string>(),
-                HasSubstr("No space left on device; what was written until then opens"));
+                HasSubstr("No space left on device; what was written until then can be opened"));
 
     const ProgramResult check =
         run_to_end(VANTAGE_PROGRAM, {"take", "check", file("disk/take.mkv"), "--json"});

@@ -66,7 +66,7 @@ TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     host_->send_signal(SIGSTOP);
     // The rigs let a host go that says nothing.
-    for (const ChildProgram* rig : {far_.get(), near_.get()}) wait_for(*rig, "is let go");
+    for (const ChildProgram* rig : {far_.get(), near_.get()}) wait_for(*rig, "is removed");
     EXPECT_LE(frames_beside_until_both_are_back([&] { host_->send_signal(SIGCONT); }),
               sets_to_recover)
         << host_->err();

@@ -154,7 +154,7 @@ int TwoRigShow::frames_beside_until_both_are_back(const std::function<void()>& e
     stage.rate_hz = 5;
     stage.rigs.push_back({"near", near_endpoint_, ""});
     std::atomic<int> frames = 0;
-    StageReceiver beside(stage, StageReceiver::Purpose::look_on,
+    StageReceiver beside(stage, StageReceiver::Purpose::observe,
                          [&](const ArrivedFrame&) { ++frames; });
     beside.ask("near", true, 1);
     EXPECT_TRUE(eventually([&] { return frames > 0; }));

@@ -99,14 +99,14 @@ TEST_F(RigTroubles, WithKeysNameTheWrongKey) {
     EXPECT_THAT(result.err, HasSubstr("north: rig north at " + endpoint(ports_.first) +
                                       " does not admit this host"));
     EXPECT_THAT(result.err, HasSubstr("south: rig south at " + endpoint(ports_.first) +
-                                      " talks only to hosts with keys"));
+                                      " accepts only hosts with keys"));
     EXPECT_EQ(nlohmann::json::parse(result.out)["signal"], "no_signal");
 
     write_stage(endpoint(ports_.first), endpoint(ports_.first),
                 "public_key = \"" + generate_curve_keys().public_key + "\"\n", top);
     result = status(60, true);
     EXPECT_EQ(result.status, 1);
-    EXPECT_THAT(result.err, HasSubstr("does not hold the key"));
+    EXPECT_THAT(result.err, HasSubstr("does not have the key"));
 }
 
 TEST_F(RigTroubles, DoNotIncludeArmedRigs) {

@@ -142,7 +142,7 @@ TEST_F(RunCommandTest, RefusesAConfigurationWithOneSentence) {
     expect_refusal(replaced(small_stage, "= 61", "= \"61\""),
                    "rig.toml:7: 'width_px' in [source] must be an integer");
     expect_refusal(replaced(small_stage, "= 16", "= 257"),
-                   "'disparities' in [match] is 257, and it must be 1 to 256");
+                   "'disparities' in [match] is 257, but must be 1 to 256");
     expect_refusal(replaced(small_stage, "\"virtual\"", "\"virtuel\""), "'virtuel'");
     expect_refusal(replaced(small_stage, "[match]", "[match]\nmatcher = \"gradiant\""),
                    "no matcher named 'gradiant'");

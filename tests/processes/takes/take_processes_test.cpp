@@ -141,7 +141,7 @@ TEST_F(TakeProcesses, ATakeOfAKilledHostOpensAndLacksASecondAtMost) {
     // It may have been killed in the middle of a write.
     EXPECT_LE(verdict.damage.size(), 2u);
     for (const TakeDamage& damage : verdict.damage)
-        EXPECT_NE(damage.words.find("are cut off"), std::string::npos) << damage.words;
+        EXPECT_NE(damage.words.find("are truncated"), std::string::npos) << damage.words;
 }
 
 TEST_F(TakeProcesses, ARigKeepsATakeOfItsOwnWhichClosesTheGapsOfTheHosts) {

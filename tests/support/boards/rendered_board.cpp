@@ -15,7 +15,7 @@ namespace {
 constexpr int square_texels = 40, samples_per_side = 4;
 constexpr double black = 32, white = 208, surroundings = 110;
 
-/// Half the difference of the neighbours; at the border the one-sided difference.
+/// Half the difference of the neighbours; the one-sided difference at the border.
 cv::Mat2d slope_of(const cv::Mat2d& values, int dx, int dy) {
     cv::Mat2d slope(values.size());
     for (int y = 0; y < values.rows; ++y)
@@ -78,7 +78,7 @@ GreyImage BoardCamera::film(const Pose& camera_from_board, const PictureFaults& 
 
 GreyImage BoardCamera::film(const std::vector<PlacedBoard>& boards, const PictureFaults& faults,
                             std::uint64_t seed) const {
-    /// A board as rays (x, y, 1) meet it.
+    /// A board's plane, for intersection with rays (x, y, 1).
     struct Plane {
         const GreyImage& picture;
         Eigen::Matrix3d texel_from_ray;  ///< the inverse of [r1 r2 t], then the board's scale
@@ -103,8 +103,7 @@ GreyImage BoardCamera::film(const std::vector<PlacedBoard>& boards, const Pictur
         for (const Plane& plane : planes) {
             if (!plane.part.contains(pixel)) continue;
             const Eigen::Vector3d t = plane.texel_from_ray * Eigen::Vector3d(ray[0], ray[1], 1);
-            // 1 / depth; its sign tells rays that meet the board before the camera from those
-            // behind it.
+            // 1 / depth; its sign distinguishes boards in front of the camera from those behind it.
             if (!(t.z() > nearest)) continue;
             const double u = t.x() / t.z(), v = t.y() / t.z();
             if (!(u >= 0 && v >= 0 && u < plane.picture.cols && v < plane.picture.rows)) continue;
@@ -125,7 +124,7 @@ GreyImage BoardCamera::film(const std::vector<PlacedBoard>& boards, const Pictur
                                        ((j + 0.5) / samples_per_side - 0.5) * dy,
                                    {x, y});
             };
-            // No edge lies among samples whose outermost four are alike.
+        // There is no edge among samples whose outermost four are equal.
             constexpr int last = samples_per_side - 1;
             const double first = sample(0, 0);
             if (sample(last, 0) == first && sample(0, last) == first &&

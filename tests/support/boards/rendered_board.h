@@ -10,34 +10,32 @@
 
 namespace vantage {
 
-/// What keeps a picture from being ideal.
+/// Imperfections of a camera image.
 struct PictureFaults {
-    double blur_px = 0.6;      ///< Gaussian sigma of the lens, on top of the pixel's own square
+    double blur_px = 0.6;      ///< Gaussian sigma of the lens, in addition to the pixel's area
     double noise_sigma = 2.0;  ///< grey levels
-    double light_slope = 0.2;  ///< share by which the light falls off across the picture
-    double glare = 0;          ///< share of the board's width under a burnt-out spot; 0: none
+    double light_slope = 0.2;  ///< relative fall-off of the light across the image
+    double glare = 0;          ///< width of an overexposed spot relative to the board; 0: none
 };
 
-/// A camera that films boards. Every pixel is the mean of samples on a grid finer than it, each of
-/// them traced through the lens to the boards' planes, so the picture is that of the model itself
-/// and owes nothing to any code that looks for corners.
+/// A camera that films calibration boards. Each pixel is the mean of samples on a subpixel grid,
+/// which are traced through the lens to the boards' planes. So the image follows the model itself
+/// and shares no code with corner detection.
 class BoardCamera {
   public:
-    /// Works out the lens, a pinhole one, once. A board's squares are drawn 40 texels wide.
+    /// Precomputes the pinhole lens's rays. Squares of the boards are 40 texels wide.
     BoardCamera(const std::vector<BoardPattern>& patterns, const CameraModel& camera);
 
-    /// What it sees of the first board. Corners outside the picture or behind the camera are simply
-    /// not there.
+    /// Renders the first board. Corners outside the image or behind the camera are missing.
     GreyImage film(const Pose& camera_from_board, const PictureFaults& faults,
                    std::uint64_t seed) const;
 
-    /// A board where it stands: which one, and camera_from_board.
+    /// A board's index and its pose camera_from_board.
     struct PlacedBoard {
         std::size_t board = 0;
         Pose camera_from_board = Pose::Identity();
     };
-    /// The nearest board hides what is behind it; from behind a board is grey. Glare is on the
-    /// first.
+    /// Renders several boards with occlusion; the back of a board is grey. Glare affects the first.
     GreyImage film(const std::vector<PlacedBoard>& boards, const PictureFaults& faults,
                    std::uint64_t seed) const;
 

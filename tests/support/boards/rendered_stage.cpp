@@ -9,8 +9,8 @@ namespace vantage {
 namespace {
 
 constexpr double arc_rad = 120 * std::numbers::pi / 180, distance_m = 4, height_m = 2.2;
-// The board on the floor, where the world begins, lies before the middle of the stage, where rigs
-// see it less flat.
+// The board on the floor, the origin of the world, lies in front of the middle of the stage, where
+// rigs see it at a steeper angle.
 const Eigen::Vector3d middle_m(0, 0, -1.2), target_m(0, 0.5, -1.2);
 
 CameraModel lens(int width_px, std::mt19937_64& random) {
@@ -52,7 +52,7 @@ std::vector<Pose> cube_faces(const BoardPattern& face) {
         pose.translation() = -half_m * body_from_face.col(2) - body_from_face * middle;
         faces.push_back(pose);
     };
-    // A board's y runs down its front and its z into it.
+    // A board's y points down its front and its z into it.
     Eigen::Matrix3d front;
     front << 1, 0, 0, 0, -1, 0, 0, 0, -1;
     for (int i = 0; i < 4; ++i) add(turn(0, 0.5 * std::numbers::pi * i, 0) * front);
@@ -98,7 +98,7 @@ bool RenderedStage::whole_in_picture(const CameraModel& camera,
                                      const Pose& camera_from_board) const {
     for (const int id : {0, pattern_.columns - 1, pattern_.corner_count() - pattern_.columns,
                          pattern_.corner_count() - 1}) {
-        // A finder needs the outer squares and some of the white around them.
+        // A detector needs the outer squares and some white around them.
         const Eigen::Vector3d corner = pattern_.corner_m(id);
         const Eigen::Vector3d middle = 0.5 * pattern_.corner_m(pattern_.corner_count() - 1);
         const Eigen::Vector3d outer =
@@ -134,7 +134,7 @@ Pose RenderedStage::board_near_rig(int rig) {
 
 Pose RenderedStage::board_before_pair(int pair) {
     std::uniform_real_distribution<double> place(-0.25, 0.25), depth(1.8, 4.2);
-    // Someone between the two rigs holds the board before himself.
+    // A person between the two rigs holds the board in front of them.
     const Pose between = look_at(on_arc(pair + 0.5, distance_m), target_m);
     for (;;) {
         const double z = depth(random_);

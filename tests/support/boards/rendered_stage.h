@@ -11,42 +11,41 @@
 
 namespace vantage {
 
-/// Where each of the boards is on a cube, whose frame is at its middle with y up: body_from_board.
-/// The first four go round it, the fifth is on top; each board fills its face with its margin.
+/// The poses body_from_board of boards on a cube whose frame is at its middle with y up. The first
+/// four are around it, the fifth on top; each board with its margin fills its face.
 std::vector<Pose> cube_faces(const BoardPattern& face);
 
-/// Two ChArUco boards of 5x4 corners that share no marker: one to lie on the floor, one to carry.
+/// Two ChArUco boards of 5x4 corners without common markers: for the floor, and to be carried.
 std::vector<BoardPattern> floor_and_hand_board();
 
 /// Four rigs on an arc of 120 degrees, 4 m from the middle of a stage, each with two lenses of its
-/// own, and where an assistant holds boards before them.
+/// own, and the poses of boards that an assistant holds.
 class RenderedStage {
   public:
     static constexpr int rig_count = 4;
 
     RenderedStage(const BoardPattern& pattern, int width_px, std::uint64_t seed)
         : RenderedStage(std::vector{pattern}, width_px, seed) {}
-    /// Of several boards, which are of one size.
+    /// With several boards of one size.
     RenderedStage(const std::vector<BoardPattern>& patterns, int width_px, std::uint64_t seed);
 
-    /// Lenses, relative pose and world_from_left as they are.
+    /// True lenses, relative pose and world_from_left.
     const StereoCalibration& truth(int rig) const { return truths_[static_cast<std::size_t>(rig)]; }
     static std::string name(int rig) { return std::string(1, static_cast<char>('A' + rig)); }
 
-    /// A board near a rig, in every part of its picture and tilted: left_from_board.
+    /// A tilted board near a rig, in turn in every part of its image: left_from_board.
     Pose board_near_rig(int rig);
-    /// A board before the gap between rig `pair` and the next one, 1.5 to 4 m away from both:
+    /// A board in the overlap of rig `pair` and the next one, 1.5 to 4 m from both:
     /// world_from_board.
     Pose board_before_pair(int pair);
-    /// Before the middle of the stage, face up: world_from_board. It is what the world is named by.
+    /// The board on the floor, face up, which defines the world: world_from_board.
     Pose board_on_floor() const;
-    /// A wand that is carried about the middle of the stage, turned and tilted at random:
-    /// world_from_body.
+    /// A wand at random poses around the middle of the stage: world_from_body.
     Pose wand_in_the_middle();
 
-    /// What a rig's left (0) or right (1) camera sees of a board that stands in the world.
+    /// Renders a board at a pose in the world, as a rig's left (0) or right (1) camera sees it.
     GreyImage film(int rig, int side, const Pose& world_from_board, const PictureFaults& faults);
-    /// A board that stands in the world: which one, and world_from_board.
+    /// A board's index and its pose world_from_board.
     struct StandingBoard {
         std::size_t board = 0;
         Pose world_from_board = Pose::Identity();
@@ -62,10 +61,10 @@ class RenderedStage {
     BoardCamera& camera(int rig, int side);
 
     std::vector<BoardPattern> patterns_;
-    BoardPattern pattern_;  ///< the first
+    BoardPattern pattern_;  ///< the first one
     std::mt19937_64 random_;
     std::vector<StereoCalibration> truths_;
-    /// Two of each rig, made when they film first: working out a lens takes longer than a picture.
+    /// Two per rig, created on first use, since computing a lens takes longer than an image.
     std::vector<std::optional<BoardCamera>> cameras_;
 };
 

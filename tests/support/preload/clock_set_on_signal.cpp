@@ -5,9 +5,8 @@
 #include <dlfcn.h>
 #include <time.h>
 
-// To be preloaded (LD_PRELOAD) into a program of Vantage: its clocks of the time of day are set
-// ahead by SIGUSR1 and back by SIGUSR2, as a person or NTP does: by a second, or by so many
-// milliseconds as CLOCK_SET_MS says.
+// For LD_PRELOAD into a program of Vantage: SIGUSR1 sets its clocks of the time of day forward and
+// SIGUSR2 back, as a person or NTP does, by a second or by CLOCK_SET_MS milliseconds.
 
 namespace {
 

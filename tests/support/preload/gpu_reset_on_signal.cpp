@@ -2,7 +2,7 @@
 
 #include "tests/support/gpu_reset.h"
 
-// To be preloaded (LD_PRELOAD) into a program of Vantage: SIGUSR2 resets its GPU.
+// For LD_PRELOAD into a program of Vantage: SIGUSR2 resets its GPU.
 
 namespace {
 

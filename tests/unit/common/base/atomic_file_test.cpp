@@ -70,7 +70,7 @@ TEST(AtomicFile, NamesThePathAndTheReason) {
     EXPECT_EQ(files_in(folder.path()), 0);
 }
 
-TEST(AtomicFile, ThreadsThatWriteTheSamePathLeaveOneWholeFile) {
+TEST(AtomicFile, ConcurrentWritersLeaveOneCompleteFile) {
     const TemporaryFolder folder;
     const auto path = folder.path() / "a.bin";
     const auto write = [&](char letter) {
@@ -103,7 +103,7 @@ TEST(ReadFile, GivesBackWhatWasWritten) {
     EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), text);
 }
 
-TEST(ReadFile, RefusesWhatIsMissingTooLargeOrAFolder) {
+TEST(ReadFile, RefusesMissingAndTooLargeFilesAndFolders) {
     const TemporaryFolder folder;
     write_file_atomically(folder.path() / "a", bytes_of("12345"));
     EXPECT_NE(thrown_sentence([&] { read_file(folder.path() / "a", 4); }).find("5 bytes"),

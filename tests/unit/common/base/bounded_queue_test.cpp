@@ -14,7 +14,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(BoundedQueue, GivesItemsInTheirOrder) {
+TEST(BoundedQueue, ReturnsItemsInOrder) {
     BoundedQueue<int> queue(3);
     EXPECT_FALSE(queue.push(1));
     EXPECT_FALSE(queue.push(2));
@@ -42,14 +42,14 @@ TEST(BoundedQueue, HoldsOneItemAtLeast) {
     EXPECT_EQ(queue.push(2), 1);
 }
 
-TEST(BoundedQueue, ComesBackEmptyWhenTheTimeIsUp) {
+TEST(BoundedQueue, PopReturnsEmptyAfterTheTimeout) {
     BoundedQueue<int> queue(2);
     const auto before = std::chrono::steady_clock::now();
     EXPECT_FALSE(queue.pop_for(20ms));
     EXPECT_GE(std::chrono::steady_clock::now() - before, 20ms);
 }
 
-TEST(BoundedQueue, IsDrainedAfterCloseAndTakesNothingMore) {
+TEST(BoundedQueue, CanBeDrainedAfterCloseAndAcceptsNothing) {
     BoundedQueue<std::unique_ptr<int>> queue(4);
     queue.push(std::make_unique<int>(7));
     queue.close();
@@ -93,7 +93,7 @@ TEST(BoundedQueue, EveryItemIsReadOrCountedAsDroppedBetweenThreads) {
     EXPECT_EQ(read.back(), pushed - 1) << "the newest is never the one dropped";
 }
 
-TEST(BoundedQueue, TellsWhenThereIsRoom) {
+TEST(BoundedQueue, WaitsForRoom) {
     BoundedQueue<int> queue(1);
     EXPECT_TRUE(queue.wait_for_room(0ns));
     queue.push(1);

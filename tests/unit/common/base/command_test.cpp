@@ -79,46 +79,46 @@ TEST(RunProgram, PutsResultsOnStdoutAndNothingOnStderr) {
     EXPECT_EQ(outcome.err, "");
 }
 
-TEST(RunProgram, SaysWhatWentWrongInOneSentence) {
+TEST(RunProgram, ReportsAFaultInOneSentence) {
     const Outcome outcome = run({"double", "-1"});
     EXPECT_EQ(outcome.status, 1);
     EXPECT_EQ(outcome.out, "");
     EXPECT_EQ(outcome.err, "base_test: error: -1 is negative; give 0 or more\n");
 }
 
-TEST(RunProgram, TellsWordsThatDoNotFitFromWorkThatFailed) {
+TEST(RunProgram, DistinguishesUsageErrorsFromFaults) {
     const std::string head = "base_test: error: ";
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-        {{}, "A subcommand is required; calculator --help lists what fits\n"},
+        {{}, "A subcommand is required; calculator --help lists the options\n"},
         {{"duble", "1"},
-         "calculator has no command 'duble'; the nearest is 'double'; calculator --help says what "
-         "they do\n"},
+         "calculator has no command 'duble'; the nearest is 'double'; calculator --help lists the "
+         "commands\n"},
         {{"root"},
          "calculator has no command 'root'; the ones there are: double, series; calculator --help "
-         "says what they do\n"},
+         "lists the commands\n"},
         {{"help", "duble"},
-         "calculator has no command 'duble'; the nearest is 'double'; calculator --help says what "
-         "they do\n"},
+         "calculator has no command 'duble'; the nearest is 'double'; calculator --help lists the "
+         "commands\n"},
         {{"help", "series", "cuont"},
          "calculator series has no command 'cuont'; the nearest is 'count'; calculator series "
-         "--help says what they do\n"},
+         "--help lists the commands\n"},
         {{"series", "cuont"},
          "calculator series has no command 'cuont'; the nearest is 'count'; calculator series "
-         "--help says what they do\n"},
-        {{"double"}, "N is required; calculator double --help lists what fits\n"},
+         "--help lists the commands\n"},
+        {{"double"}, "N is required; calculator double --help lists the options\n"},
         {{"series", "count", "--fist", "3"},
          "calculator series count has no option '--fist'; the nearest is '--first'; calculator "
-         "series count --help lists what fits\n"},
+         "series count --help lists the options\n"},
         {{"series", "count", "--first", "3", "--lsat", "4"},
          "calculator series count has no option '--lsat'; the nearest is '--last'; calculator "
-         "series count --help lists what fits\n"},
+         "series count --help lists the options\n"},
         {{"double", "1", "--tims=4"},
          "calculator double has no option '--tims'; the nearest is '--times'; calculator double "
-         "--help lists what fits\n"},
+         "--help lists the options\n"},
         {{"double", "1", "--fast"},
-         "calculator double has no option '--fast'; calculator double --help lists what fits\n"},
+         "calculator double has no option '--fast'; calculator double --help lists the options\n"},
         {{"double", "1", "-x"},
-         "calculator double has no option '-x'; calculator double --help lists what fits\n"}};
+         "calculator double has no option '-x'; calculator double --help lists the options\n"}};
     for (const auto& [words, sentence] : cases) {
         const Outcome outcome = run(words);
         EXPECT_EQ(outcome.status, 2);
@@ -140,7 +140,7 @@ TEST(RunProgram, HelpIsAResult) {
     EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
 }
 
-TEST(RunProgram, TheVersionSaysWhatItIs) {
+TEST(RunProgram, PrintsItsVersion) {
     const Outcome outcome = run({"--version"});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(outcome.out.rfind("calculator ", 0), 0u);
@@ -148,14 +148,14 @@ TEST(RunProgram, TheVersionSaysWhatItIs) {
         << outcome.out;
 }
 
-TEST(RunProgram, CtrlCEndsWith130AndWhatWasDoneIsKept) {
+TEST(RunProgram, CtrlCExitsWith130AndKeepsTheOutput) {
     std::signal(SIGINT, SIG_DFL);
     const Outcome outcome = run({"series", "add"});
     EXPECT_EQ(outcome.status, 130);
     EXPECT_EQ(outcome.out, "so far\n");
 }
 
-TEST(RunProgram, AnAnswerThatCannotBeToldHasAStatusOfItsOwn) {
+TEST(RunProgram, AnUndecidedResultHasItsOwnStatus) {
     const Outcome outcome = run({"series", "sum"});
     EXPECT_EQ(outcome.status, 3);
     EXPECT_EQ(outcome.out, "1 + 2 + ...\n");
@@ -193,7 +193,7 @@ std::string completed(const std::string& script, const std::string& line) {
     return text;
 }
 
-TEST(RunProgram, PrintsACompletionThatBashTakes) {
+TEST(RunProgram, PrintsAWorkingBashCompletion) {
     const Outcome outcome = run({"--bash-completion"});
     EXPECT_EQ(outcome.status, 0);
     EXPECT_EQ(completed(outcome.out, "calculator \"\""), "double series\n");

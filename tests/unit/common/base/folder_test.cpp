@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-TEST(MakeFolder, MakesThoseAboveItAndLeavesOneThatIsThere) {
+TEST(MakeFolder, CreatesParentsAndKeepsAnExistingFolder) {
     const TemporaryFolder temp;
     make_folder(temp.path() / "a/b");
     std::ofstream(temp.path() / "a/b/kept") << "kept";
@@ -20,7 +20,7 @@ TEST(MakeFolder, MakesThoseAboveItAndLeavesOneThatIsThere) {
     EXPECT_TRUE(std::filesystem::exists(temp.path() / "a/b/kept"));
 }
 
-TEST(MakeFolder, NamesTheFolderAndTheMendWhereAFileIsInItsWay) {
+TEST(MakeFolder, NamesTheFolderAndTheMendIfAFileIsInTheWay) {
     const TemporaryFolder temp;
     std::ofstream(temp.path() / "file") << "x";
     EXPECT_THAT(thrown_sentence([&] { make_folder(temp.path() / "file/below"); }),

@@ -7,7 +7,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(LogLimiter, SaysTheFirstAtOnceAndTheRestTogether) {
+TEST(LogLimiter, ReportsTheFirstEventAtOnceAndFurtherOnesTogether) {
     LogLimiter limiter(10s);
     const MonotonicTime start = monotonic_from_ns(0) + 1h;
     EXPECT_EQ(limiter.count(0, start), std::nullopt);

@@ -7,14 +7,14 @@
 namespace vantage {
 namespace {
 
-TEST(Percentiles, OfNothingAreZero) {
+TEST(Percentiles, AreZeroWithoutSamples) {
     const Percentiles p = PercentileRecorder().summary();
     EXPECT_EQ(p.count, 0u);
     EXPECT_EQ(p.p50, 0);
     EXPECT_EQ(p.max, 0);
 }
 
-TEST(Percentiles, OfOneSampleAreThatSample) {
+TEST(Percentiles, EqualASingleSample) {
     PercentileRecorder recorder;
     recorder.add(-3.5);
     const Percentiles p = recorder.summary();
@@ -35,7 +35,7 @@ TEST(Percentiles, AreTheNearestRanksWhateverTheOrder) {
     EXPECT_EQ(p.max, 100);
 }
 
-TEST(Percentiles, SpeakOfTheNewestSamplesWhileCountAndMaxSpeakOfAll) {
+TEST(Percentiles, CoverTheNewestSamplesAndCountAndMaxCoverAll) {
     PercentileRecorder recorder(10);
     recorder.add(1000);
     for (int i = 0; i < 25; ++i) recorder.add(i);
@@ -47,7 +47,7 @@ TEST(Percentiles, SpeakOfTheNewestSamplesWhileCountAndMaxSpeakOfAll) {
     EXPECT_LE(p.p50, 20);
 }
 
-TEST(Percentiles, LeaveOutWhatIsNoNumber) {
+TEST(Percentiles, IgnoreNaN) {
     PercentileRecorder recorder(3);
     for (const double sample : {1.0, std::nan(""), 2.0, 2.0, std::nan(""), 3.0, 2.0})
         recorder.add(sample);

@@ -33,7 +33,7 @@ TEST(PulseGrid, PulsesBeyondTheEndOfTimeAreAtItsEnd) {
     EXPECT_EQ(PulseGrid(0.5).time_of(53'000'000'000), TaiTime::max());
 }
 
-TEST(PulseGrid, FindsThePulseOfATime) {
+TEST(PulseGrid, ComputesThePulseOfATime) {
     for (const double rate_hz : {30.0, 29.97, 5.0, 119.88, 1000.0, 0.1}) {
         const PulseGrid grid(rate_hz);
         const std::uint64_t k = grid.index_at_or_before(some_day + hours(7));

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 
 class StopSignalTest : public testing::TestWithParam<int> {};
 
-TEST_P(StopSignalTest, SaysThatTheProgramIsAskedToStop) {
+TEST_P(StopSignalTest, ReportsTheRequestToStop) {
     StopSignal stop;
     EXPECT_FALSE(stop.requested());
     EXPECT_FALSE(stop.wait_for(1ms));

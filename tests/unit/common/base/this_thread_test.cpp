@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-TEST(ThisThread, IsIdleToOthersByItself) {
+TEST(ThisThread, IdleSchedulingAppliesToTheCallingThreadOnly) {
     int policy = -1;
     std::thread([&] {
         make_this_thread_idle();

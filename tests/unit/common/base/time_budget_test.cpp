@@ -9,7 +9,7 @@ namespace {
 
 constexpr MonotonicTime start{10s};
 
-TEST(TimeBudget, IsEarnedByTheTimeThatPasses) {
+TEST(TimeBudget, AccumulatesWithTime) {
     TimeBudget share(0.5, 200ms, start);
     EXPECT_FALSE(share.has_some(start));
     EXPECT_TRUE(share.has_some(start + 20ms));
@@ -19,7 +19,7 @@ TEST(TimeBudget, IsEarnedByTheTimeThatPasses) {
     EXPECT_TRUE(share.has_some(start + 32ms));
 }
 
-TEST(TimeBudget, OfWorkThatNeverEndsIsKept) {
+TEST(TimeBudget, LimitsContinuousWorkToItsShare) {
     for (const std::chrono::milliseconds work : {84ms, 370ms}) {
         TimeBudget share(0.75, 200ms, start);
         MonotonicTime now = start;
@@ -35,7 +35,7 @@ TEST(TimeBudget, OfWorkThatNeverEndsIsKept) {
     }
 }
 
-TEST(TimeBudget, CarriesSoMuchAndNoMore) {
+TEST(TimeBudget, CarriesOverALimitedAmount) {
     TimeBudget share(0.5, 100ms, start);
     MonotonicTime now = start + 1h;
     EXPECT_TRUE(share.has_some(now));

@@ -51,7 +51,7 @@ TEST_F(TimecodeTest, ShowsAFrameUntilTheNextOneBegins) {
     EXPECT_EQ(clock.at(at_utc(midnight_s) - std::chrono::nanoseconds(1), 0), "23:59:59:24");
 }
 
-TEST_F(TimecodeTest, TakesOffTheSecondsOfTai) {
+TEST_F(TimecodeTest, SubtractsTheTaiOffset) {
     const TimecodeClock clock(25);
     EXPECT_EQ(clock.at(at_utc(midnight_s + 3600, 37), 37), "01:00:00:00");
     EXPECT_EQ(clock.at(at_utc(midnight_s + 3600), 0), "01:00:00:00");
@@ -112,7 +112,7 @@ TEST_F(TimecodeTest, OtherBroadcastRatesAreNotDropFrame) {
     EXPECT_EQ(hour.substr(0, 8), "01:00:00") << "by the clock";
 }
 
-TEST_F(TimecodeTest, LetsFramesShareANumberWhereTwoDigitsAreTooFew) {
+TEST_F(TimecodeTest, FramesShareANumberAbove60Fps) {
     EXPECT_EQ(nth(120, 0), "00:00:00:00");
     EXPECT_EQ(nth(120, 1), "00:00:00:00");
     EXPECT_EQ(nth(120, 119), "00:00:00:59");
@@ -125,7 +125,7 @@ TEST_F(TimecodeTest, LetsFramesShareANumberWhereTwoDigitsAreTooFew) {
         }
 }
 
-TEST_F(TimecodeTest, IsTheHousesTimeOfDayInSummerAndWinter) {
+TEST_F(TimecodeTest, FollowsLocalTimeInSummerAndWinter) {
     use_time_zone("Europe/Stockholm");
     const TimecodeClock clock(25);
     EXPECT_EQ(clock.at(at_utc(midnight_s, 37), 37), "02:00:00:00");
@@ -137,7 +137,7 @@ TEST_F(TimecodeTest, IsTheHousesTimeOfDayInSummerAndWinter) {
         << "drop-frame code begins at the house's midnight";
 }
 
-TEST_F(TimecodeTest, ZonesAreKnownByTheirNames) {
+TEST_F(TimecodeTest, FindsTimeZonesByName) {
     EXPECT_TRUE(is_time_zone("UTC"));
     EXPECT_TRUE(is_time_zone("America/Argentina/Buenos_Aires"));
     for (const char* name : {"", "Europe/Stokholm", "Europe", "/etc/localtime", "../../etc/passwd"})

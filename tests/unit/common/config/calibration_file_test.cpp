@@ -63,7 +63,7 @@ class CalibrationFileTest : public SavedFile {
                                  .views_used = 13};
 };
 
-TEST_F(CalibrationFileTest, GivesBackEveryBit) {
+TEST_F(CalibrationFileTest, RoundTripsEveryBit) {
     const StereoCalibration saved = odd_calibration();
     save(saved);
     const StereoCalibration loaded = load_calibration(file_);
@@ -87,7 +87,7 @@ TEST_F(CalibrationFileTest, GivesBackEveryBit) {
     EXPECT_EQ(loaded.id.size(), 16u);
 }
 
-TEST_F(CalibrationFileTest, GivesBackItsRecordAndAFisheyeLens) {
+TEST_F(CalibrationFileTest, RoundTripsItsRecordAndAFisheyeLens) {
     StereoCalibration c = odd_calibration();
     c.left.lens = c.right.lens = LensModel::fisheye;
     c.left.distortion = {0.1, 0.2, 0.3, 0.4};
@@ -101,7 +101,7 @@ TEST_F(CalibrationFileTest, GivesBackItsRecordAndAFisheyeLens) {
     EXPECT_EQ(record.views_used, record_.views_used);
 }
 
-TEST_F(CalibrationFileTest, GivesBackUncertaintiesAndRefusesImpossibleOnes) {
+TEST_F(CalibrationFileTest, RoundTripsUncertaintiesAndRefusesInvalidOnes) {
     const StereoCalibration c = odd_calibration();
     CalibrationSigma sigma;
     sigma.left = {0.25, 0.5, 0.125, 0.75, std::vector<double>(c.left.distortion.size(), 0.01)};
@@ -169,7 +169,7 @@ TEST_F(CalibrationFileTest, KeepsTheLastGoodFile) {
     EXPECT_EQ(load_calibration(file_).id, calibration_checksum(second));
 }
 
-TEST_F(CalibrationFileTest, WritesNothingThatCannotBe) {
+TEST_F(CalibrationFileTest, RefusesToWriteAnInvalidCalibration) {
     save();
     const std::string before = text();
     StereoCalibration bad = odd_calibration();
@@ -183,16 +183,16 @@ TEST_F(CalibrationFileTest, WritesNothingThatCannotBe) {
 TEST_F(CalibrationFileTest, RefusesAChangedNumber) {
     save();
     replace("width_px: 641", "width_px: 642");
-    EXPECT_TRUE(fault().starts_with("the checksum does not fit the numbers")) << fault();
+    EXPECT_TRUE(fault().starts_with("the checksum does not match the numbers")) << fault();
 }
 
-TEST_F(CalibrationFileTest, RefusesAChangedUncertaintyOrResidualAndAnUncertaintyThatIsGone) {
+TEST_F(CalibrationFileTest, RefusesChangedResidualsAndChangedOrMissingUncertainties) {
     const StereoCalibration c = odd_calibration();
     record_.sigma = CalibrationSigma{
         {0.25, 0.5, 0.125, 0.75, std::vector<double>(c.left.distortion.size(), 0.01)},
         {1, 2, 3, 4, std::vector<double>(c.right.distortion.size(), 0.02)}};
     record_.alpha = 0.5;
-    constexpr std::string_view contradiction = "the checksum does not fit the numbers";
+    constexpr std::string_view contradiction = "the checksum does not match the numbers";
     for (const auto& [key, value] :
          {std::pair("fx_px", "0.26"), std::pair("row_rms_px", "0.13"), std::pair("alpha", "0.6")}) {
         save();
@@ -204,7 +204,7 @@ TEST_F(CalibrationFileTest, RefusesAChangedUncertaintyOrResidualAndAnUncertainty
     EXPECT_TRUE(fault().starts_with(contradiction)) << fault();
 }
 
-TEST_F(CalibrationFileTest, SaysWhetherItsPlaceIsAssumed) {
+TEST_F(CalibrationFileTest, RecordsWhetherItsPoseIsAssumed) {
     save();
     EXPECT_FALSE(load_calibration(file_).place_is_assumed);
     StereoCalibration c = odd_calibration();
@@ -216,7 +216,7 @@ TEST_F(CalibrationFileTest, SaysWhetherItsPlaceIsAssumed) {
 }
 
 /// What version 1 wrote: the geometry's checksum, and the identity for a place that nobody knew.
-TEST_F(CalibrationFileTest, OfTheFirstVersionIsReadAndStandsLevelWhereItHadNoPlace) {
+TEST_F(CalibrationFileTest, ReadsVersion1AndAssumesALevelPoseWithoutOne) {
     StereoCalibration c = odd_calibration();
     c.world_from_left = Pose::Identity();
     for (const char* tool : {"vantage-calib stereo", "vantage-calib stage"}) {
@@ -242,13 +242,13 @@ TEST_F(CalibrationFileTest, OfTheFirstVersionIsReadAndStandsLevelWhereItHadNoPla
 TEST_F(CalibrationFileTest, RefusesAnotherVersionOrKind) {
     save();
     replace("version: 2", "version: 3");
-    EXPECT_EQ(fault(), "it is of version 3, and this program reads versions 1 to 2");
+    EXPECT_EQ(fault(), "it has version 3, but this program reads versions 1 to 2");
     replace("version: 3", "version: 2");
     replace("vantage stereo calibration", "shopping list");
     EXPECT_EQ(fault(), "this is not a calibration of Vantage");
 }
 
-TEST_F(CalibrationFileTest, NamesWhatIsMissingOrOfAnotherType) {
+TEST_F(CalibrationFileTest, NamesMissingKeysAndWrongTypes) {
     save();
     replace("baseline_m:", "baseline:");
     EXPECT_EQ(fault(), "'rectified.baseline_m' is missing");
@@ -260,13 +260,13 @@ TEST_F(CalibrationFileTest, NamesWhatIsMissingOrOfAnotherType) {
     EXPECT_EQ(fault(), "'left.height_px' must be an integer");
     save();
     replace("lens: pinhole", "lens: mirror");
-    EXPECT_EQ(fault(), "'left.lens' is 'mirror', and it must be pinhole or fisheye");
+    EXPECT_EQ(fault(), "'left.lens' is 'mirror', but must be pinhole or fisheye");
     save();
     replace("rows: 3", "rows: 2000000000");
     EXPECT_EQ(fault(), "'left.K' is 2000000000x3 and holds 9 numbers");
 }
 
-TEST_F(CalibrationFileTest, RefusesNumbersThatCannotBe) {
+TEST_F(CalibrationFileTest, RefusesInvalidNumbers) {
     save();
     replace("baseline_m: ", "baseline_m: -");
     EXPECT_TRUE(fault().starts_with("baseline -0.1 m must be above 0")) << fault();
@@ -275,7 +275,7 @@ TEST_F(CalibrationFileTest, RefusesNumbersThatCannotBe) {
     EXPECT_TRUE(fault().starts_with("camera size 0x479")) << fault();
 }
 
-TEST_F(CalibrationFileTest, RefusesWhatIsNoYamlAtAll) {
+TEST_F(CalibrationFileTest, RefusesFilesThatAreNotYaml) {
     EXPECT_NE(fault(), "") << "a missing file";
     for (const std::string& content :
          {std::string(), std::string("\0\x01\x02", 3), std::string("%YAML:1.0\n---\n{{{{"),

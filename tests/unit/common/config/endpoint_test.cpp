@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-TEST(Endpoint, KnowsWhatStaysOnThisComputer) {
+TEST(Endpoint, RecognisesLoopbackAddresses) {
     for (const char* text : {"tcp://127.0.0.1:5600", "tcp://127.9.8.7:1", "tcp://localhost:5600",
                              "tcp://[::1]:5600", "tcp://127.0.0.1:*"})
         EXPECT_TRUE(parse_endpoint(text, "bind").loopback) << text;
@@ -18,12 +18,12 @@ TEST(Endpoint, KnowsWhatStaysOnThisComputer) {
         EXPECT_FALSE(parse_endpoint(text, "bind").loopback) << text;
 }
 
-TEST(Endpoint, ComesBackAsItWas) {
+TEST(Endpoint, RoundTripsItsText) {
     for (const char* text : {"tcp://127.0.0.1:5600", "tcp://[::1]:65535", "tcp://*:*"})
         EXPECT_EQ(parse_endpoint(text, "bind").text(), text);
 }
 
-TEST(Endpoint, RefusesWhatIsNoneAndNamesTheKey) {
+TEST(Endpoint, RefusesInvalidEndpointsAndNamesTheKey) {
     for (const char* text :
          {"", "tcp://", "tcp://127.0.0.1", "127.0.0.1:5600", "udp://127.0.0.1:5600", "tcp://:5600",
           "tcp://127.0.0.1:", "tcp://127.0.0.1:0", "tcp://127.0.0.1:65536", "tcp://127.0.0.1:56x",

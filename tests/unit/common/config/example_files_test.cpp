@@ -45,7 +45,7 @@ TEST(ExampleFiles, LoadAndShowTheDefaults) {
     EXPECT_EQ(rig.source.width_px, defaults.source.width_px);
     EXPECT_EQ(rig.virtual_rig.distance_m, defaults.virtual_rig.distance_m);
     EXPECT_EQ(rig.virtual_rig.baseline_m, defaults.virtual_rig.baseline_m);
-    EXPECT_EQ(rig.virtual_rig.set, defaults.virtual_rig.set);
+    EXPECT_EQ(rig.virtual_rig.scene, defaults.virtual_rig.scene);
     EXPECT_EQ(rig.trigger.role, defaults.trigger.role);
     EXPECT_EQ(rig.trigger.active_low, defaults.trigger.active_low);
     EXPECT_EQ(rig.trigger.start, defaults.trigger.start);

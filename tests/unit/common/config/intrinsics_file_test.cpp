@@ -38,7 +38,7 @@ class IntrinsicsFileTest : public SavedFile {
                                        .distortion = {0.1, 0.2, 0.3, 0.4, 0.5}}};
 };
 
-TEST_F(IntrinsicsFileTest, GivesBackEveryBit) {
+TEST_F(IntrinsicsFileTest, RoundTripsEveryBit) {
     save();
     const CameraModel read = load_intrinsics(file_);
     EXPECT_EQ(read.width_px, camera_.width_px);
@@ -48,7 +48,7 @@ TEST_F(IntrinsicsFileTest, GivesBackEveryBit) {
     EXPECT_EQ(read.distortion, camera_.distortion);
 }
 
-TEST_F(IntrinsicsFileTest, SaysHowSureItIsUnderNamesThatOpenCvKnows) {
+TEST_F(IntrinsicsFileTest, StoresUncertaintiesUnderOpenCvsNames) {
     save();
     const cv::FileStorage file(file_.string(), cv::FileStorage::READ);
     cv::Mat K;
@@ -61,20 +61,21 @@ TEST_F(IntrinsicsFileTest, SaysHowSureItIsUnderNamesThatOpenCvKnows) {
 TEST_F(IntrinsicsFileTest, RefusesAChangedNumber) {
     save();
     replace("image_width: 641", "image_width: 642");
-    EXPECT_THAT(fault(), testing::AllOf(testing::HasSubstr("left.yaml: the checksum does not fit"),
-                                        testing::HasSubstr("last good file")));
+    EXPECT_THAT(fault(),
+                testing::AllOf(testing::HasSubstr("left.yaml: the checksum does not match"),
+                               testing::HasSubstr("last good file")));
 }
 
 TEST_F(IntrinsicsFileTest, RefusesAChangedUncertainty) {
     save();
     replace("cy_px: 2.", "cy_px: 3.");
-    EXPECT_THAT(fault(), testing::HasSubstr("the checksum does not fit"));
+    EXPECT_THAT(fault(), testing::HasSubstr("the checksum does not match"));
 }
 
-TEST_F(IntrinsicsFileTest, NamesWhatIsMissingOrCannotBe) {
+TEST_F(IntrinsicsFileTest, NamesMissingAndInvalidValues) {
     save();
     replace("cy_px: 2.", "cy_px: -2.");
-    EXPECT_THAT(fault(), testing::HasSubstr("'sigma.cy_px' is -2, and a deviation is 0 or more"));
+    EXPECT_THAT(fault(), testing::HasSubstr("'sigma.cy_px' is -2, but a deviation is 0 or more"));
     save();
     replace("camera_matrix", "camera_nothing");
     EXPECT_THAT(fault(), testing::HasSubstr("'camera_matrix' is missing"));
@@ -95,7 +96,7 @@ TEST_F(IntrinsicsFileTest, KeepsTheLastGoodFile) {
         << "a damaged file took the place of a good one";
 }
 
-TEST_F(IntrinsicsFileTest, WritesNothingThatCannotBe) {
+TEST_F(IntrinsicsFileTest, RefusesToWriteAnInvalidCamera) {
     save();
     camera_.fx_px = -1;
     EXPECT_NE(thrown_sentence([this] { save(); }), "");

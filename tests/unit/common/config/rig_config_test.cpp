@@ -10,7 +10,7 @@ namespace {
 
 using RigConfigTest = ConfigText<load_rig_config>;
 
-TEST_F(RigConfigTest, GivesDefaultsForWhatIsLeftOut) {
+TEST_F(RigConfigTest, UsesDefaultsForMissingKeys) {
     const RigConfig config = load("version = 1\nname = 'a'\n");
     EXPECT_EQ(config.name, "a");
     EXPECT_EQ(config.source.kind, "virtual");
@@ -20,7 +20,7 @@ TEST_F(RigConfigTest, GivesDefaultsForWhatIsLeftOut) {
     EXPECT_FALSE(config.uncalibrated);
 }
 
-TEST_F(RigConfigTest, TakesNoneForACalibrationThatIsStillToBeMade) {
+TEST_F(RigConfigTest, AcceptsNoneAsCalibration) {
     const RigConfig config = load("version = 1\nname = 'a'\ncalibration = 'none'\n");
     EXPECT_TRUE(config.uncalibrated);
     EXPECT_TRUE(config.calibration.empty());
@@ -53,7 +53,7 @@ distance_m = 3
 baseline_m = 0.2
 field_of_view_deg = 60
 doffs_px = 12
-set = 7
+scene = 7
 [match]
 matcher = "gradient"
 preset = "fast"
@@ -93,7 +93,7 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.virtual_rig.baseline_m, 0.2);
     EXPECT_EQ(config.virtual_rig.field_of_view_deg, 60.0);
     EXPECT_EQ(config.virtual_rig.doffs_px, 12.0);
-    EXPECT_EQ(config.virtual_rig.set, 7);
+    EXPECT_EQ(config.virtual_rig.scene, 7);
     EXPECT_EQ(config.match.matcher, "gradient");
     EXPECT_EQ(config.match.preset, "fast");
     EXPECT_EQ(config.match.disparities, 32);
@@ -110,7 +110,19 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.stream.authorized_hosts, "/etc/hosts.keys");
 }
 
-TEST_F(RigConfigTest, NamesLineAndNearestKeyOfAnUnknownOne) {
+TEST_F(RigConfigTest, ReadsTheOldNameOfAKeyWithAWarning) {
+    const std::string top = "version = 1\nname = 'a'\ncalibration = 'none'\n[virtual_rig]\n";
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(load(top + "set = 3\n").virtual_rig.scene, 3);  // old name
+    EXPECT_THAT(testing::internal::GetCapturedStderr(),
+                testing::HasSubstr("config.toml:5: 'set' in [virtual_rig] is now called 'scene'"));
+    EXPECT_EQ(fault(top + "set = -1\n"),
+              "config.toml:5: 'scene' in [virtual_rig] is -1, but must be 0 to 1000000");
+    EXPECT_EQ(fault(top + "scene = 3\nset = 3\n"),
+              "config.toml:6: 'set' in [virtual_rig] is the old name of 'scene': keep one");
+}
+
+TEST_F(RigConfigTest, NamesTheLineAndTheNearestKeyOfAnUnknownKey) {
     EXPECT_EQ(fault("version = 1\nname = 'a'\n[match]\nfill = true\nmathcer = 'x'\n"),
               "config.toml:5: there is no key 'mathcer' in [match]; the nearest is 'matcher'");
     EXPECT_EQ(fault("version = 1\nname = 'a'\n[sauce]\n"),
@@ -120,7 +132,7 @@ TEST_F(RigConfigTest, NamesLineAndNearestKeyOfAnUnknownOne) {
               "calibration, source, virtual_rig, trigger, match, stream, keep");
 }
 
-TEST_F(RigConfigTest, PrefersTheMistypedKeyToTheOneItLeavesMissing) {
+TEST_F(RigConfigTest, ReportsAMistypedKeyBeforeTheMissingOne) {
     EXPECT_EQ(fault("version = 1\nnaem = 'a'\n"),
               "config.toml:2: there is no key 'naem'; the nearest is 'name'");
     EXPECT_EQ(fault("version = 1\n"), "config.toml:1: 'name' is missing");
@@ -129,36 +141,35 @@ TEST_F(RigConfigTest, PrefersTheMistypedKeyToTheOneItLeavesMissing) {
 TEST_F(RigConfigTest, NamesTheWantedType) {
     const std::string head = "version = 1\nname = 'a'\n";
     EXPECT_EQ(fault(head + "[source]\nrate_hz = 'fast'\n"),
-              "config.toml:4: 'rate_hz' in [source] must be a number, and it is a string");
+              "config.toml:4: 'rate_hz' in [source] must be a number, but is a string");
     EXPECT_EQ(fault(head + "[source]\nwidth_px = 320.5\n"),
-              "config.toml:4: 'width_px' in [source] must be an integer, and it is a number with a "
+              "config.toml:4: 'width_px' in [source] must be an integer, but is a number with a "
               "fraction");
     EXPECT_EQ(fault(head + "[source]\nloop = 1\n"),
-              "config.toml:4: 'loop' in [source] must be true or false, and it is an integer");
+              "config.toml:4: 'loop' in [source] must be true or false, but is an integer");
     EXPECT_EQ(fault(head + "match = 3\n"),
-              "config.toml:3: 'match' must be a table, and it is an integer");
+              "config.toml:3: 'match' must be a table, but is an integer");
     EXPECT_EQ(fault(head + "[source]\nkind = true\n"),
-              "config.toml:4: 'kind' in [source] must be a string, and it is true or false");
+              "config.toml:4: 'kind' in [source] must be a string, but is true or false");
     EXPECT_EQ(fault(head + "[source]\nseed = -1\n"),
-              "config.toml:4: 'seed' in [source] is -1, and the least it may be is 0");
-    EXPECT_EQ(
-        fault(head + "[source.controls]\ngain = 1.5\n"),
-        "config.toml:4: 'gain' in [source.controls] must be an integer, and it is a number with "
-        "a fraction");
+              "config.toml:4: 'seed' in [source] is -1, but must be at least 0");
+    EXPECT_EQ(fault(head + "[source.controls]\ngain = 1.5\n"),
+              "config.toml:4: 'gain' in [source.controls] must be an integer, but is a number with "
+              "a fraction");
 }
 
-TEST_F(RigConfigTest, NamesTheLimitThatWasBroken) {
+TEST_F(RigConfigTest, NamesTheLimit) {
     const std::string head = "version = 1\nname = 'a'\n";
     EXPECT_EQ(fault(head + "[match]\ndisparities = 257\n"),
-              "config.toml:4: 'disparities' in [match] is 257, and it must be 1 to 256");
+              "config.toml:4: 'disparities' in [match] is 257, but must be 1 to 256");
     EXPECT_EQ(fault(head + "[match]\ndisparities = 99999999999\n"),
-              "config.toml:4: 'disparities' in [match] is 99999999999, and it must be 1 to 256");
+              "config.toml:4: 'disparities' in [match] is 99999999999, but must be 1 to 256");
     EXPECT_EQ(fault(head + "[source]\nfirst = -1\n"),
-              "config.toml:4: 'first' in [source] is -1, and the least it may be is 0");
+              "config.toml:4: 'first' in [source] is -1, but must be at least 0");
     EXPECT_EQ(fault(head + "[source]\nrate_hz = inf\n"),
               "config.toml:4: 'rate_hz' in [source] must be a finite number");
     EXPECT_EQ(fault(head + "[source]\nrate_hz = 0\n"),
-              "config.toml:4: 'rate_hz' in [source] is 0, and it must be 0.01 to 1000");
+              "config.toml:4: 'rate_hz' in [source] is 0, but must be 0.01 to 1000");
     EXPECT_EQ(fault(head + "[match]\npreset = 'qualty'\n"),
               "config.toml:4: 'preset' in [match] must not be 'qualty'; the nearest is 'quality'");
     EXPECT_EQ(
@@ -171,18 +182,17 @@ TEST_F(RigConfigTest, NamesTheLimitThatWasBroken) {
         fault(head + "calibration = ''\n"),
         "config.toml:3: 'calibration' must not be empty: leave the key out if there is no such "
         "file");
-    EXPECT_EQ(
-        fault("version = 1\nname = 'a b'\n"),
-        "config.toml:2: 'name' is 'a b', and it must be 1 to 64 letters, digits, '-' and '_'");
+    EXPECT_EQ(fault("version = 1\nname = 'a b'\n"),
+              "config.toml:2: 'name' is 'a b', but must be 1 to 64 letters, digits, '-' and '_'");
 }
 
-TEST_F(RigConfigTest, WantsItsVersion) {
+TEST_F(RigConfigTest, RequiresItsVersion) {
     EXPECT_EQ(fault("name = 'a'\n"),
               "config.toml: the key 'version' is missing; put `version = 1` at the top");
     EXPECT_EQ(fault("version = 2\nname = 'a'\n"),
-              "config.toml:1: 'version' is 2, and this program reads version 1");
+              "config.toml:1: 'version' is 2, but this program reads version 1");
     EXPECT_EQ(fault("version = '1'\nname = 'a'\n"),
-              "config.toml:1: 'version' must be an integer, and it is a string");
+              "config.toml:1: 'version' must be an integer, but is a string");
 }
 
 TEST_F(RigConfigTest, NamesTheLineThatIsNotToml) {
@@ -192,13 +202,13 @@ TEST_F(RigConfigTest, NamesTheLineThatIsNotToml) {
     EXPECT_NE(fault(std::string("version = 1\nname = '\xff\xfe'\n")), "");
 }
 
-TEST_F(RigConfigTest, RefusesWhatIsNoFile) {
+TEST_F(RigConfigTest, RefusesAMissingFileAndAFolder) {
     EXPECT_NE(thrown_sentence([&] { load_rig_config(folder_.path() / "none.toml"); }), "");
     EXPECT_NE(thrown_sentence([&] { load_rig_config(folder_.path()); }), "");
     EXPECT_NE(fault("#" + std::string(2 << 20, 'x')), "");
 }
 
-TEST_F(RigConfigTest, WantsALineForATriggerThatUsesOne) {
+TEST_F(RigConfigTest, RequiresALineForATriggerThatUsesOne) {
     const std::string top = "version = 1\nname = 'a'\n[trigger]\n";
     EXPECT_EQ(load(top + "role = 'lead'\nchip = 'c'\nline = 'GPIO17'\n").trigger.line, "GPIO17");
     EXPECT_EQ(load(top + "role = 'follow'\nchip = 'c'\nline_offset = 4\n").trigger.line_offset, 4);
@@ -206,8 +216,8 @@ TEST_F(RigConfigTest, WantsALineForATriggerThatUsesOne) {
     EXPECT_THAT(fault(top + "role = 'lead'\n"), testing::HasSubstr("needs 'chip'"));
     EXPECT_THAT(fault(top + "role = 'follow'\nchip = 'c'\n"), testing::HasSubstr("'line_offset'"));
     EXPECT_THAT(fault(top + "role = 'follow'\npretended = true\n"),
-                testing::HasSubstr("no edge to follow"));
-    EXPECT_THAT(fault(top + "line = 'a'\nline_offset = 4\n"), testing::HasSubstr("one way"));
+                testing::HasSubstr("needs the role 'lead'"));
+    EXPECT_THAT(fault(top + "line = 'a'\nline_offset = 4\n"), testing::HasSubstr("keep one"));
     EXPECT_THAT(fault(top + "role = 'led'\n"), testing::HasSubstr("lead"));
 }
 

@@ -51,7 +51,7 @@ synthesiser = "mesh"
     EXPECT_EQ(config.view.synthesiser, "mesh");
 }
 
-TEST_F(StageConfigTest, TakesARigsPublicKeyFromAFile) {
+TEST_F(StageConfigTest, ReadsARigsPublicKeyFromAFile) {
     const std::string key = "rq:rM>}U?@Lns47E1%kR.o@n%FcmmsL/@{H8]yf7";
     const std::string rig =
         "version = 1\n[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\npublic_key_file = 'a.pub'\n";
@@ -68,24 +68,25 @@ TEST_F(StageConfigTest, TakesARigsPublicKeyFromAFile) {
     EXPECT_NE(fault(rig).find("a.pub"), std::string::npos);
 }
 
-TEST_F(StageConfigTest, WantsRigsWithNamesOfTheirOwn) {
+TEST_F(StageConfigTest, RequiresRigsWithUniqueNames) {
     const std::string rig = "[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n";
     EXPECT_EQ(fault("version = 1\n"), "config.toml:1: 'rigs' is missing");
     EXPECT_EQ(fault("version = 1\nrigs = []\n"),
-              "config.toml:2: 'rigs' is empty: a stage has at least one rig");
-    EXPECT_EQ(fault("version = 1\n" + rig + rig),
-              "config.toml:6: 'name' in [[rigs]] is 'a' a second time: every rig has its own name");
+              "config.toml:2: 'rigs' is empty: a stage needs at least one rig");
+    EXPECT_EQ(
+        fault("version = 1\n" + rig + rig),
+        "config.toml:6: 'name' in [[rigs]] is 'a' a second time: every rig needs its own name");
     EXPECT_EQ(fault("version = 1\n[[rigs]]\nname = 'a'\n"),
               "config.toml:2: 'endpoint' in [[rigs]] is missing");
 }
 
-TEST_F(StageConfigTest, TakesATimeZoneThatIsKnown) {
+TEST_F(StageConfigTest, AcceptsOnlyKnownTimeZones) {
     const std::string head =
         "version = 1\n[[rigs]]\nname = 'a'\nendpoint = 'tcp://h:1'\n[timecode]\n";
     EXPECT_EQ(load(head + "zone = 'Europe/Stockholm'\n").timecode_zone, "Europe/Stockholm");
     EXPECT_EQ(fault(head + "zone = 'Europe/Stokholm'\n"),
-              "config.toml:6: 'zone' in [timecode] = 'Europe/Stokholm' is no time zone of this "
-              "computer; timedatectl list-timezones lists them");
+              "config.toml:6: 'zone' in [timecode] = 'Europe/Stokholm' is not a time zone of "
+              "this computer; timedatectl list-timezones lists them");
 }
 
 TEST_F(StageConfigTest, NamesLineAndMendOfAFault) {
@@ -97,17 +98,16 @@ TEST_F(StageConfigTest, NamesLineAndMendOfAFault) {
               "config.toml:4: endpoint = \"tcp://h:70000\" is not an endpoint of the form "
               "tcp://HOST:PORT");
     EXPECT_EQ(fault(head + "[view]\ntarget_m = [1, 2]\n"),
-              "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it has 2");
-    EXPECT_EQ(
-        fault(head + "[view]\ntarget_m = [1, 2, 'x']\n"),
-        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it is a string");
+              "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, but has 2");
+    EXPECT_EQ(fault(head + "[view]\ntarget_m = [1, 2, 'x']\n"),
+              "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, but is a string");
     EXPECT_EQ(
         fault(head + "[view]\ntarget_m = 1\n"),
-        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, and it is an integer");
+        "config.toml:6: 'target_m' in [view] must be an array of 3 numbers, but is an integer");
     EXPECT_EQ(fault("version = 1\nrigs = [1]\n"),
-              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], and it is an integer");
+              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], but is an integer");
     EXPECT_EQ(fault("version = 1\nrigs = 'a'\n"),
-              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], and it is a string");
+              "config.toml:2: 'rigs' must be an array of tables, [[rigs]], but is a string");
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ std::string set(const std::string& in, const char* table, const char* key, const
     return with_toml_value(in, table, key, value, "file.toml");
 }
 
-TEST(TomlEdit, PutsAValueInPlaceOfAnotherAndLeavesAllElse) {
+TEST(TomlEdit, ReplacesAValueAndKeepsTheRest) {
     std::string expected = text;
     expected.replace(expected.find("\"wheel\""), 7, "\"orbit\"");
     EXPECT_EQ(set(text, "axes.jog", "action", "\"orbit\""), expected);
@@ -58,15 +58,15 @@ TEST(TomlEdit, WritesAMissingTableAtTheEnd) {
     EXPECT_EQ(toml::parse(edited).at_path("axes.ring.action").value_or(std::string()), "shuttle");
 }
 
-TEST(TomlEdit, TakesAKeyOutWithItsLine) {
+TEST(TomlEdit, RemovesAKeyWithItsLine) {
     std::string expected = text;
     expected.erase(expected.find("sensitivity"), 18);
     EXPECT_EQ(without_toml_key(text, "axes.jog", "sensitivity", "f"), expected);
     EXPECT_EQ(without_toml_key(text, "axes.jog", "none", "f"), text);
 }
 
-TEST(TomlEdit, SaysWhereThereIsNoPlace) {
-    EXPECT_NE(thrown_sentence([] { (void)set(text, "rigs", "b", "1"); }).find("no table"),
+TEST(TomlEdit, RefusesTablesWithoutAHeader) {
+    EXPECT_NE(thrown_sentence([] { (void)set(text, "rigs", "b", "1"); }).find("is not a table"),
               std::string::npos);
     EXPECT_NE(thrown_sentence([] { (void)set("a.b = 1\n", "a", "c", "1"); }).find("header [a]"),
               std::string::npos);

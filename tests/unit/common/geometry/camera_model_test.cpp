@@ -71,7 +71,7 @@ TEST_P(EveryLens, ProjectsTheAxisToTheCentre) {
     EXPECT_LT((*pixel - Eigen::Vector2d(camera_.cx_px, camera_.cy_px)).norm(), 1e-9);
 }
 
-TEST_P(EveryLens, SeesNothingAtOrBehindTheCamera) {
+TEST_P(EveryLens, ProjectsNoPointAtOrBehindTheCamera) {
     EXPECT_FALSE(camera_.project({0.1, 0.2, 0}));
     EXPECT_FALSE(camera_.project({0.1, 0.2, -1}));
 }
@@ -100,7 +100,7 @@ TEST(CameraModel, AgreesWithTheFormulas) {
         << "without coefficients the angle itself";
 }
 
-TEST(CameraModel, RefusesWhatCannotBe) {
+TEST(CameraModel, RefusesInvalidValues) {
     const auto refusal = [](auto change) -> std::string {
         CameraModel camera = plain_camera();
         change(camera);

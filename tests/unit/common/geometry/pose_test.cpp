@@ -31,7 +31,7 @@ TEST(LookAt, PutsTheWorldsRightOnTheRight) {
     EXPECT_GT((pose.inverse() * Vector3d(1, 1, 0)).x(), 0);
 }
 
-TEST(Interpolate, GoesStraightAndTurnsEvenlyTheShortWay) {
+TEST(Interpolate, TranslatesLinearlyAndRotatesOnTheShorterArc) {
     Pose a = Pose::Identity(), b = Pose::Identity();
     a.linear() = Eigen::AngleAxisd(-0.3, Vector3d::UnitY()).toRotationMatrix();
     b.linear() = Eigen::AngleAxisd(0.9, Vector3d::UnitY()).toRotationMatrix();

@@ -17,7 +17,7 @@ RectifiedStereo geometry(double cx_right_px) {
     return g;
 }
 
-TEST(RectifiedStereo, DepthAndDisparityAreEachOthersInverse) {
+TEST(RectifiedStereo, DepthAndDisparityAreInverse) {
     for (const double cx_right : {320.0, 352.5, 301.0}) {
         const RectifiedStereo g = geometry(cx_right);
         for (const double depth_m : {0.4, 1.0, 3.7, 25.0}) {
@@ -30,7 +30,7 @@ TEST(RectifiedStereo, DepthAndDisparityAreEachOthersInverse) {
     }
 }
 
-TEST(RectifiedStereo, SaysUnknownAtAndBeyondInfinity) {
+TEST(RectifiedStereo, DepthIsUnknownAtAndBeyondInfinity) {
     const RectifiedStereo g = geometry(352.5);  // doffs 32.5
     EXPECT_EQ(g.depth_m(-32.5), 0);
     EXPECT_EQ(g.depth_m(-40), 0);
@@ -38,7 +38,7 @@ TEST(RectifiedStereo, SaysUnknownAtAndBeyondInfinity) {
     EXPECT_EQ(geometry(320).depth_m(0), 0);
 }
 
-TEST(RectifiedStereo, GivesKOfTheLeftPicture) {
+TEST(RectifiedStereo, ReturnsKOfTheLeftImage) {
     Eigen::Matrix3d expected;
     expected << 500, 0, 320, 0, 500, 240, 0, 0, 1;
     EXPECT_EQ(geometry(352.5).K_left(), expected);

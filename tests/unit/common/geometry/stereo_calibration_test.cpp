@@ -150,7 +150,7 @@ TEST_P(Rectification, ChoosesTheSizeAskedFor) {
                 0.03 * calibration_.rectified.f_px);
 }
 
-TEST_P(Rectification, SaysWhichWayTheRectifiedViewLooks) {
+TEST_P(Rectification, ComputesThePoseOfTheRectifiedView) {
     const Pose expected = calibration_.world_from_left;
     const Vector3d point(0.2, -0.1, 2);
     const Vector3d in_rectified = calibration_.rectified_from_left * point;
@@ -158,7 +158,7 @@ TEST_P(Rectification, SaysWhichWayTheRectifiedViewLooks) {
               1e-12);
 }
 
-TEST_P(Rectification, OfARigThatNobodyPlacedStandsLevelAtAPersonsHeight) {
+TEST_P(Rectification, AssumedPoseIsLevelAtEyeHeight) {
     assume_place(calibration_);
     EXPECT_TRUE(calibration_.place_is_assumed);
     const Pose place = calibration_.world_from_rectified_left();
@@ -186,7 +186,7 @@ TEST(ComputeRectification, NoticesSwappedAndMixedCameras) {
               std::string::npos);
 }
 
-TEST(RectifiedCalibration, IsAnIdentityUntilSomethingIsBent) {
+TEST(RectifiedCalibration, IsAnIdentityWithoutDistortion) {
     RectifiedStereo geometry;
     geometry.width_px = 64;
     geometry.height_px = 48;
@@ -220,7 +220,7 @@ TEST(RectifiedCalibration, IsAnIdentityUntilSomethingIsBent) {
     EXPECT_FALSE(is_identity(bent, Side::left));
 }
 
-TEST(StereoCalibration, RefusesWhatCannotBe) {
+TEST(StereoCalibration, RefusesInvalidValues) {
     const auto refusal = [](auto change) {
         StereoCalibration c = crooked_rig(LensModel::pinhole);
         compute_rectification(c, 0);

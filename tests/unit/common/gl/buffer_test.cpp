@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-TEST(Buffer, GivesBackWhatWasWritten) {
+TEST(Buffer, ReadsWhatWasWritten) {
     const EglContext context;
     const std::vector<int> initial = {1, 2, 3, 4, 5};
     Buffer buffer = Buffer::of(std::span<const int>(initial));

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-TEST(ContextGroup, LeavesWhatIsCurrentAlone) {
+TEST(ContextGroup, KeepsTheCurrentContext) {
     ContextGroup group;
     EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
     const ContextGroup::Member member = group.join();
@@ -32,7 +32,7 @@ TEST(ContextGroup, SharesObjectsAmongItsContexts) {
     EXPECT_TRUE(glIsTexture(texture.name()));
 }
 
-TEST(ContextGroup, TellsOfAResetAndIsMadeAnewOnce) {
+TEST(ContextGroup, ReportsAResetAndIsRenewedOnce) {
     ContextGroup group;
     const ContextGroup::Member lost = group.join();
     if (!makes_robust_contexts(lost.context->display()))
@@ -52,7 +52,7 @@ TEST(ContextGroup, TellsOfAResetAndIsMadeAnewOnce) {
 }
 
 /// A name of the lost group may mean another's object by now.
-TEST(CurrentContext, OfNoneLetsDestroyWithoutTouchingWhatIsCurrent) {
+TEST(CurrentContext, NoneAllowsDestructionWithoutAffectingTheCurrentContext) {
     ContextGroup group;
     const ContextGroup::Member member = group.join();
     const CurrentContext current(*member.context);

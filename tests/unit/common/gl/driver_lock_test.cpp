@@ -35,7 +35,7 @@ TEST(DestroyedMutex, IsWaitedForWhileAnotherThreadHoldsIt) {
     other.join();
 }
 
-TEST(DestroyedMutex, HoldsNobodyUpWhoHoldsItOneself) {
+TEST(DestroyedMutex, DoesNotBlockItsOwner) {
     pthread_mutex_t mutex;
     ASSERT_EQ(pthread_mutex_init(&mutex, nullptr), 0);
     pthread_mutex_lock(&mutex);
@@ -44,7 +44,7 @@ TEST(DestroyedMutex, HoldsNobodyUpWhoHoldsItOneself) {
     EXPECT_EQ(pthread_mutex_destroy(&mutex), 0);
 }
 
-TEST(DriverLock, IsOneThreadsAtATime) {
+TEST(DriverLock, IsHeldByOneThreadAtATime) {
     std::mutex driver;
     std::atomic<bool> is_over = false;
     auto first = std::make_unique<DriverLock>(&driver);
@@ -58,7 +58,7 @@ TEST(DriverLock, IsOneThreadsAtATime) {
     other.join();
 }
 
-TEST(DriverLock, IsAnothersWhileItPauses) {
+TEST(DriverLock, IsFreeDuringAPause) {
     std::mutex driver;
     const DriverLock turn(&driver);
     {
@@ -69,7 +69,7 @@ TEST(DriverLock, IsAnothersWhileItPauses) {
     EXPECT_FALSE(std::async(std::launch::async, [&] { return driver.try_lock(); }).get());
 }
 
-TEST(DriverLock, IsNotNeededEverywhere) {
+TEST(DriverLock, DoesNothingWithoutAMutex) {
     const DriverLock turn(nullptr);
     const DriverLock::Pause pause;
 }

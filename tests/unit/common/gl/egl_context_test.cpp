@@ -42,7 +42,7 @@ TEST(EglContext, IsCurrentAndOpenGlEs31) {
     EXPECT_GE(10 * major + minor, 31);
 }
 
-TEST(EglContext, LetsTheNextOneStartAfresh) {
+TEST(EglContext, CanBeCreatedAgain) {
     { const EglContext first; }
     EXPECT_EQ(eglGetCurrentContext(), EGL_NO_CONTEXT);
     const EglContext second;
@@ -84,7 +84,7 @@ TEST(EglContext, SharedObjectsOutliveTheFirst) {
     EXPECT_TRUE(glIsTexture(texture.name()));
 }
 
-TEST(EglContext, MakesWhatWasCurrentSoAgain) {
+TEST(EglContext, RestoresThePreviousContext) {
     const EglContext first;
     const EGLContext of_first = eglGetCurrentContext();
     const EglContext second = EglContext::sharing_with(first);
@@ -103,7 +103,7 @@ TEST(EglContext, IsCurrentOnOneThreadOnly) {
     }).join();
 }
 
-TEST(EglContext, KnowsExtensionsByTheirWholeName) {
+TEST(EglContext, MatchesExtensionsByTheirFullName) {
     const EglContext context;
     EXPECT_TRUE(context.has_extension("EGL_KHR_surfaceless_context"));
     EXPECT_FALSE(context.has_extension("EGL_KHR_surfaceless"));
@@ -123,7 +123,7 @@ TEST(EglContext, KnowsExtensionsByTheirWholeName) {
     std::exit(0);
 }
 
-TEST(EglContextDeathTest, WithoutADriverListsWhatWasTried) {
+TEST(EglContextDeathTest, ListsAllAttemptsWithoutADriver) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_EXIT(open_a_context_without_drivers(), testing::ExitedWithCode(1),
                 "no OpenGL ES 3.1 without a display.*; surfaceless: .*; device.*: .*; gbm.*: ");

@@ -59,7 +59,7 @@ DrawnPicture drawn_elsewhere(const EglContext& context) {
     return promise.get_future().get();
 }
 
-TEST(Fence, LetsAThreadReadWhatAnotherOnesContextDrew) {
+TEST(Fence, AllowsReadingWhatAnotherThreadDrew) {
     const EglContext context;
     const DrawnPicture picture = drawn_elsewhere(context);
     EXPECT_TRUE(picture.drawn.reached_within(std::chrono::seconds(60)));

@@ -66,7 +66,7 @@ TEST_F(FramebufferTest, RefusesMoreTargetsThanAPiHas) {
     }
 }
 
-TEST_F(FramebufferTest, RefusesWhatTheDriverCannotRenderTo) {
+TEST_F(FramebufferTest, RefusesFormatsThatTheDriverCannotDraw) {
     const Texture depth(TextureFormat::depth24, 4, 4);
     EXPECT_THROW(Framebuffer({&depth}), Error) << "depth is no colour";
 }
@@ -80,7 +80,7 @@ TEST_F(FramebufferTest, DrawsDepthAlone) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
 
-TEST_F(FramebufferTest, LeavesTheBoundOneBound) {
+TEST_F(FramebufferTest, RestoresTheBoundFramebuffer) {
     const Texture texture(TextureFormat::rgba8, 4, 4);
     const Framebuffer first({&texture});
     first.bind();

@@ -64,7 +64,7 @@ TEST_F(FullscreenPassTest, DrawsOnlyWhereTheDepthComparesAsAsked) {
             << "column " << x;
 }
 
-TEST_F(FullscreenPassTest, TakesWhatItDrewOutOfLaterOnesWay) {
+TEST_F(FullscreenPassTest, DepthWritesExcludePixelsFromLaterPasses) {
     constexpr int rows = 3;
     draw_where(GL_GREATER, 0.4f, true, first, rows);
     draw_where(GL_GREATER, 0.3f, false, second);
@@ -74,7 +74,7 @@ TEST_F(FullscreenPassTest, TakesWhatItDrewOutOfLaterOnesWay) {
     EXPECT_EQ(drawn(0, 4), cleared);
 }
 
-TEST_F(FullscreenPassTest, LeavesTheRangeOfDepthAsItIsForTheNext) {
+TEST_F(FullscreenPassTest, RestoresTheDepthRange) {
     draw_where(GL_GREATER, 0.4f, true, first);
     GLfloat range[2];
     glGetFloatv(GL_DEPTH_RANGE, range);

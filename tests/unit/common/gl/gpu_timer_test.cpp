@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-TEST(GpuTimer, SaysMoreThanNothingAndNoMoreThanTheWallClockAround) {
+TEST(GpuTimer, IsAboveZeroAndAtMostTheWallClockTime) {
     const EglContext context;
     const Texture texture(TextureFormat::rgba8, 1024, 1024);
     const Framebuffer target({&texture});
@@ -30,7 +30,7 @@ TEST(GpuTimer, SaysMoreThanNothingAndNoMoreThanTheWallClockAround) {
     }
 }
 
-TEST(GpuTimer, SaysNothingBeforeASpanAndNothingTwice) {
+TEST(GpuTimer, ReturnsEachSpanOnce) {
     const EglContext context;
     GpuTimer timer;
     EXPECT_FALSE(timer.poll_ms());

@@ -19,7 +19,7 @@ TEST(GlInfo, DescribesTheContext) {
     EXPECT_GE(info.max_shared_bytes, PiLimits::max_shared_bytes);
 }
 
-TEST(GlInfo, NamesTheLimitThatIsTooLow) {
+TEST(GlInfo, NamesACapabilityBelowTheMinimum) {
     GlInfo info;
     info.renderer = "Slate 1";
     info.max_texture_side_px = 4096;
@@ -53,7 +53,7 @@ TEST(CheckGl, TurnsAnErrorFlagIntoASentenceOnce) {
     EXPECT_NO_THROW(check_gl("going on"));
 }
 
-TEST(GlExtensions, AreKnownByTheirWholeName) {
+TEST(GlExtensions, AreMatchedByTheirFullName) {
     const EglContext context;
     EXPECT_TRUE(has_gl_extension("GL_EXT_color_buffer_float"));
     EXPECT_FALSE(has_gl_extension("GL_EXT_color_buffer"));

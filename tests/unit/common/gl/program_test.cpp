@@ -33,7 +33,7 @@ class ProgramTest : public testing::Test {
     ShaderFolder folder_;
 };
 
-TEST_F(ProgramTest, SaysWhichShaderDoesNotCompileAndWhy) {
+TEST_F(ProgramTest, NamesAShaderThatDoesNotCompileAndTheReason) {
     folder_.write("bad.frag", "void main() { undeclared = 1.0; }\n");
     const ShaderLibrary library(folder_.path());
     const std::string refusal =
@@ -42,7 +42,7 @@ TEST_F(ProgramTest, SaysWhichShaderDoesNotCompileAndWhy) {
     EXPECT_NE(refusal.find("undeclared"), std::string::npos) << refusal;
 }
 
-TEST_F(ProgramTest, SaysWhichShadersDoNotLink) {
+TEST_F(ProgramTest, NamesShadersThatDoNotLink) {
     folder_.write("needs.frag",
                   "in vec2 never_written;\nlayout(location = 0) out vec4 colour;\n"
                   "void main() { colour = never_written.xyxy; }\n");
@@ -62,7 +62,7 @@ TEST_F(ProgramTest, TakesDefines) {
     EXPECT_EQ(painted_by(red), cv::Vec4b(255, 0, 0, 255));
 }
 
-TEST_F(ProgramTest, TakesUpAnEditAndKeepsTheLastGoodOneWhenAnEditIsBroken) {
+TEST_F(ProgramTest, ReloadsAnEditedShaderAndKeepsTheLastGoodOneOnErrors) {
     folder_.write("a.frag", paints("vec4(1, 0, 0, 1)"));
     ShaderLibrary library(folder_.path());
     FullscreenPass pass(library, "a.frag");

@@ -36,7 +36,7 @@ class ReadbackTest : public testing::Test {
     Readback readback_;
 };
 
-TEST_F(ReadbackTest, GivesWhatADownloadGives) {
+TEST_F(ReadbackTest, EqualsADownload) {
     expect_as_downloaded<cv::Mat4b>(TextureFormat::rgba8, {37, 23});
     expect_as_downloaded<cv::Mat1w>(TextureFormat::r16ui, {61, 7});
     expect_as_downloaded<cv::Mat1f>(TextureFormat::r32f, {5, 19});
@@ -52,7 +52,7 @@ TEST_F(ReadbackTest, ShowsTheTextureAsItWasWhenItBegan) {
     EXPECT_EQ(taken(47, 63), cv::Vec4b(1, 2, 3, 4));
 }
 
-TEST_F(ReadbackTest, TwoAreUnderWayBesideEachOther) {
+TEST_F(ReadbackTest, TwoCanBeInProgress) {
     Readback other;
     Texture texture(TextureFormat::rgba8, 16, 16);
     texture.upload(cv::Mat4b(16, 16, cv::Vec4b(1, 1, 1, 1)));

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 namespace vantage {
 namespace {
 
-TEST(RenderPriority, NobodyWaitsWhereNobodyClaimsIt) {
+TEST(RenderPriority, DoesNotWaitWithoutAClaim) {
     RenderPriority way;
     way.give_way(1h);
     { const RenderPriority::Claim claim(way); }
@@ -35,7 +35,7 @@ TEST(RenderPriority, WaitsForEveryClaim) {
     yielding.join();
 }
 
-TEST(RenderPriority, BandsGoOnWhereAClaimNeverEnds) {
+TEST(RenderPriority, BandsContinueDespiteAnEndlessClaim) {
     const EglContext context;
     RenderPriority way;
     const RenderPriority::Claim claim(way);

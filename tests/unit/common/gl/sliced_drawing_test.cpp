@@ -109,7 +109,7 @@ TEST_F(BandsTest, CoverEveryRowOnceAndLeaveNoScissor) {
     }
 }
 
-TEST_F(BandsTest, GrowToTheWholePictureWhereASliceAllowsItAndShrinkWhereNot) {
+TEST_F(BandsTest, GrowAndShrinkToFillTheSlice) {
     int rows = 0;
     {
         const SlicedDrawing slices(1h);
@@ -121,7 +121,7 @@ TEST_F(BandsTest, GrowToTheWholePictureWhereASliceAllowsItAndShrinkWhereNot) {
     EXPECT_GE(bands(500, rows, slices).size(), 500u / 9);
 }
 
-TEST_F(BandsTest, EndWhereWhatIsCalledBetweenThemSaysSo) {
+TEST_F(BandsTest, EndOnAnExceptionBetweenBands) {
     int calls = 0, rows = 8;
     const SlicedDrawing slices(1ns, nullptr, [&] {
         if (++calls == 4) throw std::runtime_error("enough");
@@ -132,7 +132,7 @@ TEST_F(BandsTest, EndWhereWhatIsCalledBetweenThemSaysSo) {
     EXPECT_FALSE(glIsEnabled(GL_SCISSOR_TEST));
 }
 
-TEST_F(BandsTest, WaitForOthersOnlyAsLongAsTheirShareOfTheTimeAllows) {
+TEST_F(BandsTest, WaitForOthersOnlyWithinTheirShareOfTime) {
     RenderPriority way;
     const RenderPriority::Claim never_ends(way);
     const SlicedDrawing slices(

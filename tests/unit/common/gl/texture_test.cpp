@@ -16,7 +16,7 @@ class TextureTest : public testing::TestWithParam<TextureFormat> {
     EglContext context_;
 };
 
-TEST_P(TextureTest, GivesBackWhatWasUploadedAtAnOddSize) {
+TEST_P(TextureTest, RoundTripsAnImageOfOddSize) {
     const TextureFormatInfo info = format_info(GetParam());
     cv::Mat image(13, 31, info.cv_type);
     cv::RNG random(7);
@@ -29,7 +29,7 @@ TEST_P(TextureTest, GivesBackWhatWasUploadedAtAnOddSize) {
     EXPECT_EQ(cv::norm(texture.download(), image, cv::NORM_INF), 0);
 }
 
-TEST_P(TextureTest, TakesPaddedRows) {
+TEST_P(TextureTest, AcceptsPaddedRows) {
     const TextureFormatInfo info = format_info(GetParam());
     cv::Mat wide(9, 40, info.cv_type, cv::Scalar::all(1));
     const cv::Mat part = wide(cv::Rect(3, 2, 17, 5));
@@ -58,7 +58,7 @@ TEST(TextureOfWindows, IsDrawnToAndDownloadedAsOthers) {
     EXPECT_EQ(cv::norm(texture.download(), expected, cv::NORM_INF), 0);
 }
 
-TEST(TextureLimits, RefusesWhatAPiCannotHold) {
+TEST(TextureLimits, RefusesSizesBeyondPiLimits) {
     const EglContext context;
     EXPECT_THROW(Texture(TextureFormat::rgba8, 5000, 10), Error);
     EXPECT_THROW(Texture(TextureFormat::rgba8, 0, 10), Error);

@@ -25,7 +25,7 @@ class TilePassTest : public testing::Test {
     TilePass pass_{library_, "tone.frag"};
 };
 
-TEST_F(TilePassTest, DrawsTheTilesThatAreNamedAndClearsTheOthers) {
+TEST_F(TilePassTest, DrawsSelectedTilesAndClearsTheOthers) {
     // The last column of tiles reaches beyond the picture; the target is half its size.
     const cv::Size picture(40, 32), half(20, 16);
     ASSERT_EQ(TilePass::tiles_of(picture), cv::Size(3, 2));

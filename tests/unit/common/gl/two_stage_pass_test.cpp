@@ -49,7 +49,7 @@ class TwoStagePassTest : public testing::Test {
     ShaderLibrary library_{folder_.path()};
 };
 
-TEST_F(TwoStagePassTest, TheSecondStageDrawsWhatTheFirstLeavesAndNothingElse) {
+TEST_F(TwoStagePassTest, TheSecondStageDrawsOnlyThePixelsLeftByTheFirst) {
     expect_stripes(drawn());
 }
 

@@ -78,13 +78,13 @@ class LinkTest : public testing::Test {
     int next_key_ = 0;
 };
 
-TEST_F(LinkTest, AReportComesToWhoeverAsksForIt) {
+TEST_F(LinkTest, AReportIsSentToTheHostThatRequestsIt) {
     const CurveKeys host_keys = generate_curve_keys();
     Publisher rig(secured_stream({host_keys}), "rig-a");
     int asked = 0;
     rig.serve_reports([&](const std::atomic<bool>&) { return fmt::format("report {}", ++asked); });
-    StageReceiver silent(stage_of(rig, key_file_of(host_keys)), StageReceiver::Purpose::look_on);
-    StageReceiver host(stage_of(rig, key_file_of(host_keys)), StageReceiver::Purpose::look_on);
+    StageReceiver silent(stage_of(rig, key_file_of(host_keys)), StageReceiver::Purpose::observe);
+    StageReceiver host(stage_of(rig, key_file_of(host_keys)), StageReceiver::Purpose::observe);
     ASSERT_TRUE(eventually([&] { return connected(host) && connected(silent); }));
     EXPECT_EQ(host.report_of(0), nullptr);
     host.ask_for_reports();
@@ -123,7 +123,7 @@ TEST_F(LinkTest, FramesCrossTheSecuredLinkBitExact) {
     EXPECT_EQ(status.undecodable, 0u);
 }
 
-TEST_F(LinkTest, WhatNobodyLooksAtIsKeptAsItCameAndNotDecoded) {
+TEST_F(LinkTest, FramesOfARigThatIsNotDecodedStayPacked) {
     Publisher rig(open_stream(), "rig-a");
     StageReceiver host(stage_of(rig));
     ASSERT_TRUE(eventually([&] { return connected(host); }));
@@ -136,16 +136,16 @@ TEST_F(LinkTest, WhatNobodyLooksAtIsKeptAsItCameAndNotDecoded) {
         return *set->slots[0].frame;
     };
     EXPECT_TRUE(next(1000).has_pictures());
-    host.look_at("rig-a", false);
+    host.set_decoded("rig-a", false);
     EXPECT_FALSE(next(1001).has_pictures());
     EXPECT_EQ(next(1002).geometry.width_px, 61) << "all but the pictures is known";
-    host.look_at("rig-a", true);
+    host.set_decoded("rig-a", true);
     EXPECT_TRUE(same_pixels(next(1003).colour, make_frame(1003).colour));
     EXPECT_EQ(host.status().rigs[0].in_frame_sets, 4u);
-    EXPECT_THROW(host.look_at("rig-b", true), Error);
+    EXPECT_THROW(host.set_decoded("rig-b", true), Error);
 }
 
-TEST_F(LinkTest, AnUnknownHostIsToldWhatToDoAndIsLetInOnceItIsListed) {
+TEST_F(LinkTest, AnUnknownHostGetsInstructionsAndIsAdmittedOnceListed) {
     const CurveKeys host_keys = generate_curve_keys();
     Publisher rig(secured_stream({}), "rig-a");
     StageReceiver host(stage_of(rig, key_file_of(host_keys)));
@@ -232,7 +232,7 @@ TEST_F(LinkTest, TwoRigsMeetByTriggerIndex) {
     EXPECT_EQ(host.status().complete_frame_sets, 4u);
 }
 
-TEST_F(LinkTest, SetsThatNobodyTakesAreCountedWithTheirFrames) {
+TEST_F(LinkTest, DroppedFrameSetsAreCountedWithTheirFrames) {
     Publisher rig(open_stream(), "rig-a");
     StageReceiver receiver(stage_of(rig));
     ASSERT_TRUE(eventually([&] { return connected(receiver, 0); }));
@@ -248,7 +248,7 @@ TEST_F(LinkTest, SetsThatNobodyTakesAreCountedWithTheirFrames) {
     EXPECT_EQ(status.rigs[0].in_frame_sets, taken + status.rigs[0].in_dropped_frame_sets);
 }
 
-TEST_F(LinkTest, ARigThinsItsStreamAsAsked) {
+TEST_F(LinkTest, ARigSkipsPulsesAsRequested) {
     Publisher rig(open_stream(), "rig-a");
     StageReceiver host(stage_of(rig));
     ASSERT_TRUE(eventually([&] { return connected(host); }));
@@ -400,7 +400,7 @@ TEST_F(LinkTest, TheFirstPulseIsAnnouncedOnceEveryRigIsReady) {
     EXPECT_EQ(a.announced_pulse(), b.announced_pulse());
 }
 
-TEST_F(LinkTest, ARigThatIsStartedAgainJoinsTheRunningTake) {
+TEST_F(LinkTest, ARestartedRigJoinsTheRunningTake) {
     Publisher running(open_stream(), "rig-a");
     RigSync started;
     started.role = RigSync::Role::lead;
@@ -414,19 +414,19 @@ TEST_F(LinkTest, ARigThatIsStartedAgainJoinsTheRunningTake) {
     EXPECT_TRUE(eventually([&] { return again.announced_pulse() == 4711; }));
 }
 
-TEST_F(LinkTest, AHostThatOnlyLooksOnStartsNoTake) {
+TEST_F(LinkTest, AnObservingHostStartsNoTake) {
     Publisher rig(open_stream(), "rig-a");
     RigSync armed;
     armed.role = RigSync::Role::lead;
     armed.ready = true;
     rig.report(armed);
-    StageReceiver onlooker(stage_of(rig), StageReceiver::Purpose::look_on);
+    StageReceiver onlooker(stage_of(rig), StageReceiver::Purpose::observe);
     ASSERT_TRUE(eventually([&] { return onlooker.status().rigs[0].sync == armed; }));
     std::this_thread::sleep_for(2 * heartbeat_period);
     EXPECT_EQ(rig.announced_pulse(), 0u);
 }
 
-TEST_F(LinkTest, AHostThatCalibratesGetsRawPairsAndAnotherOneGoesOnFilming) {
+TEST_F(LinkTest, ACalibratingHostGetsRawPairsWhileAnotherOneFilms) {
     Publisher rig(open_stream(), "rig-a");
     StageReceiver films(stage_of(rig));
     StageReceiver calibrates(stage_of(rig), StageReceiver::Purpose::calibrate);
@@ -448,7 +448,7 @@ TEST_F(LinkTest, AHostThatCalibratesGetsRawPairsAndAnotherOneGoesOnFilming) {
     EXPECT_EQ(rig.status().counters.published, 1u);
 }
 
-TEST_F(LinkTest, TheNewestRightPictureIsWithEveryFrameThatFollows) {
+TEST_F(LinkTest, FramesCarryTheNewestRightImage) {
     RigConfig::Stream stream = open_stream();
     stream.jpeg_quality = 85;
     Publisher rig(stream, "rig-a");
@@ -471,7 +471,7 @@ TEST_F(LinkTest, TheNewestRightPictureIsWithEveryFrameThatFollows) {
     EXPECT_EQ(got(11, false), second);
 }
 
-TEST_F(LinkTest, ClocksThatNothingDisciplinesAreNotPretendedToAgree) {
+TEST_F(LinkTest, ReportsUndisciplinedClocks) {
     RigStatus rig;
     EXPECT_THAT(clock_text(rig), HasSubstr("clocks not disciplined: skew unknown"));
     rig.sync.ptp_state = "LISTENING";
@@ -486,13 +486,13 @@ TEST_F(LinkTest, ClocksThatNothingDisciplinesAreNotPretendedToAgree) {
     EXPECT_THAT(clock_text(rig), HasSubstr("phc2sys"));
 }
 
-TEST_F(LinkTest, ComputersThatCountTheSecondsOfTaiDifferentlyAreTold) {
+TEST_F(LinkTest, WarnsOfDifferentTaiOffsets) {
     RigStatus rig;
     rig.sync.tai_offset_s = rig.own_tai_offset_s = 37;
-    EXPECT_EQ(tai_worry(rig), "");
+    EXPECT_EQ(tai_warning(rig), "");
     rig.own_tai_offset_s = 0;
-    EXPECT_THAT(tai_worry(rig), HasSubstr("37 s"));
-    EXPECT_THAT(clock_text(rig), HasSubstr(tai_worry(rig)));
+    EXPECT_THAT(tai_warning(rig), HasSubstr("37 s"));
+    EXPECT_THAT(clock_text(rig), HasSubstr(tai_warning(rig)));
 }
 
 }  // namespace

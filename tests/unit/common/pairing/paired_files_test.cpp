@@ -20,7 +20,7 @@ struct PairedFilesTest : testing::Test {
     }
 };
 
-TEST_F(PairedFilesTest, NamesKeyAndListInAConfigurationThatHasNone) {
+TEST_F(PairedFilesTest, AddsKeyAndListToAConfigurationWithoutThem) {
     write("[stream]\n# where\nbind = \"tcp://127.0.0.1:5612\"\n");
     PairedFiles files(file);
     const CurveKeys keys = files.own_keys();
@@ -49,7 +49,7 @@ TEST_F(PairedFilesTest, AddsAHostToAListAndLeavesTheRest) {
               "# mine\n" + first.public_key + " first\n" + second.public_key + " second\n");
 }
 
-TEST_F(PairedFilesTest, LeavesAStreamOnThisComputerThatIsPairedOnThisComputer) {
+TEST_F(PairedFilesTest, KeepsALoopbackStreamAfterPairingOnOneComputer) {
     write("");
     PairedFiles files(file);
     files.own_keys();

@@ -48,7 +48,7 @@ TEST_F(PairingSocketTest, CarriesAPairing) {
     EXPECT_EQ(socket.peer_address(), "127.0.0.1");
 }
 
-TEST_F(PairingSocketTest, GoesOnWhileSomebodyElseTalksNonsense) {
+TEST_F(PairingSocketTest, IgnoresInvalidMessagesOfOthers) {
     PairingCall call(socket.endpoint(), host_keys, "gallery", {});
     zmq::context_t context;
     zmq::socket_t other(context, zmq::socket_type::dealer);
@@ -67,7 +67,7 @@ TEST_F(PairingSocketTest, GoesOnWhileSomebodyElseTalksNonsense) {
     EXPECT_EQ(window.attempts_made(), 1);
 }
 
-TEST_F(PairingSocketTest, TellsTheHostThatTheRigDoesNotConfirm) {
+TEST_F(PairingSocketTest, ReportsARigsRefusalToTheHost) {
     PairingCall call(socket.endpoint(), host_keys, "gallery", {});
     ASSERT_TRUE(until(call, [&] { return window.to_compare() && call.to_compare(); }));
     call.confirm();
@@ -77,14 +77,14 @@ TEST_F(PairingSocketTest, TellsTheHostThatTheRigDoesNotConfirm) {
     EXPECT_FALSE(call.is_agreed());
 }
 
-TEST_F(PairingSocketTest, WaitsForNoProgramForEver) {
+TEST_F(PairingSocketTest, LimitsTheWaitForTheProgram) {
     PairingCall silent(socket.endpoint(), host_keys, "gallery", {.answer_in = 1h});
     EXPECT_NE(
-        thrown_sentence([&] { silent.turn(MonotonicClock::now() + 2h); }).find("nobody pairs at"),
+        thrown_sentence([&] { silent.turn(MonotonicClock::now() + 2h); }).find("nothing pairs at"),
         std::string::npos);
 }
 
-TEST_F(PairingSocketTest, WaitsForNoPersonForEver) {
+TEST_F(PairingSocketTest, LimitsTheWaitForThePerson) {
     PairingCall shown(socket.endpoint(), host_keys, "gallery", {});
     ASSERT_TRUE(until(shown, [&] { return shown.to_compare().has_value(); }));
     EXPECT_NE(
@@ -92,7 +92,7 @@ TEST_F(PairingSocketTest, WaitsForNoPersonForEver) {
         std::string::npos);
 }
 
-TEST_F(PairingSocketTest, SaysThatItsPortIsInUse) {
+TEST_F(PairingSocketTest, ReportsAPortInUse) {
     EXPECT_NE(thrown_sentence([&] { PairingSocket another(socket.endpoint()); }).find("in use"),
               std::string::npos);
 }

@@ -56,7 +56,7 @@ TEST(Pairing, ShowsAnotherCodeEveryTime) {
 }
 
 /// Who stands between plays the rig to the host and a host to the rig, with keys of its own.
-TEST(Pairing, ShowsDifferentCodesWhereSomebodyStandsBetween) {
+TEST(Pairing, ShowsDifferentCodesWithAManInTheMiddle) {
     const CurveKeys between = generate_curve_keys();
     int same = 0;
     for (int i = 0; i < 20; ++i) {
@@ -76,7 +76,7 @@ TEST(Pairing, ShowsDifferentCodesWhereSomebodyStandsBetween) {
 }
 
 /// Without the commitment it could try nonces until the codes meet.
-TEST(Pairing, RefusesARevealThatWasNotCommittedTo) {
+TEST(Pairing, RefusesARevealWithoutItsCommitment) {
     Ends ends;
     PairReveal other = std::get<PairReveal>(*ends.host.hear(ends.rig.offer()));
     other.nonce[0] ^= 1;
@@ -93,7 +93,7 @@ TEST(Pairing, RefusesASecondOfferOnceTheHostHasRevealed) {
               std::string::npos);
 }
 
-TEST(Pairing, RefusesWhatWasSaidInAnotherPairing) {
+TEST(Pairing, RefusesMessagesOfAnotherPairing) {
     Ends before;
     before.show_codes();
     const PairConfirm old = before.host.confirm();
@@ -107,7 +107,7 @@ TEST(Pairing, RefusesWhatWasSaidInAnotherPairing) {
     EXPECT_FALSE(rig.is_agreed());
 }
 
-TEST(Pairing, TakesNoProofOfItsOwnBack) {
+TEST(Pairing, RefusesItsOwnProof) {
     Ends ends;
     ends.show_codes();
     const PairConfirm of_host = ends.host.confirm();
@@ -126,7 +126,7 @@ TEST(Pairing, ProvesThatAnEndHoldsItsSecretKey) {
     EXPECT_FALSE(thrown_sentence([&] { rig.hear(host.confirm()); }).empty());
 }
 
-TEST(PairCode, IsTheSameWithOrWithoutItsBlank) {
+TEST(PairCode, MatchesWithOrWithoutTheSpace) {
     EXPECT_TRUE(is_same_code("483920", "483 920"));
     EXPECT_TRUE(is_same_code(" 483 920 \r", "483 920"));
     EXPECT_FALSE(is_same_code("483921", "483 920"));
@@ -134,7 +134,7 @@ TEST(PairCode, IsTheSameWithOrWithoutItsBlank) {
     EXPECT_FALSE(is_same_code("yes", "483 920"));
 }
 
-TEST(PairMessage, SurvivesTheWireAndIsRefusedWhereItDoesNotFit) {
+TEST(PairMessage, RoundTripsAndRefusesInvalidMessages) {
     PairOffer offer = north();
     offer.public_key = generate_curve_keys().public_key;
     offer.nonce = random_pair_bytes();

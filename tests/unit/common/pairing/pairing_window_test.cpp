@@ -30,7 +30,7 @@ struct PairingWindowTest : testing::Test {
     }
 };
 
-TEST_F(PairingWindowTest, ClosesWithTheHostThatBothHaveConfirmed) {
+TEST_F(PairingWindowTest, ClosesAfterAConfirmedPairing) {
     show_codes("a", host);
     ASSERT_TRUE(window.to_compare());
     EXPECT_EQ(window.to_compare()->code(), host.code());
@@ -44,7 +44,7 @@ TEST_F(PairingWindowTest, ClosesWithTheHostThatBothHaveConfirmed) {
     EXPECT_TRUE(refuses(window.hear("b", HostPairing(generate_curve_keys(), "x").commit(), now)));
 }
 
-TEST_F(PairingWindowTest, PairsNobodyWhomThePersonAtTheRigRejects) {
+TEST_F(PairingWindowTest, PairsNoHostThatThePersonAtTheRigRejects) {
     show_codes("a", host);
     window.hear("a", host.confirm(), now);
     EXPECT_TRUE(refuses(window.reject(now)));
@@ -53,7 +53,7 @@ TEST_F(PairingWindowTest, PairsNobodyWhomThePersonAtTheRigRejects) {
     EXPECT_EQ(window.take_failure(), "");
 }
 
-TEST_F(PairingWindowTest, LetsOneHostPairAtATime) {
+TEST_F(PairingWindowTest, PairsOneHostAtATime) {
     show_codes("a", host);
     HostPairing other(generate_curve_keys(), "other");
     EXPECT_TRUE(refuses(window.hear("b", other.commit(), now)));
@@ -72,7 +72,7 @@ TEST_F(PairingWindowTest, CountsAttempts) {
     EXPECT_NE(window.why_closed().find("3 attempts"), std::string::npos);
 }
 
-TEST_F(PairingWindowTest, CountsHostsThatBeginAnewBeforeTheCodeIsAnswered) {
+TEST_F(PairingWindowTest, CountsRestartedAttempts) {
     Messages answer;
     for (int i = 0; i <= Limits().attempts; ++i)
         answer = window.hear("a", HostPairing(generate_curve_keys(), "guesser").commit(), now);
@@ -80,7 +80,7 @@ TEST_F(PairingWindowTest, CountsHostsThatBeginAnewBeforeTheCodeIsAnswered) {
     EXPECT_TRUE(window.is_closed());
 }
 
-TEST_F(PairingWindowTest, WaitsForNobodyForEver) {
+TEST_F(PairingWindowTest, LimitsEveryWait) {
     window.hear("a", host.commit(), now);
     EXPECT_TRUE(window.tick(now + Limits().answer_in - std::chrono::seconds(1)).empty());
     EXPECT_TRUE(refuses(window.tick(now + Limits().answer_in)));
@@ -95,7 +95,7 @@ TEST_F(PairingWindowTest, WaitsForNobodyForEver) {
     EXPECT_FALSE(window.paired());
 }
 
-TEST_F(PairingWindowTest, EndsAnAttemptThatTalksNonsenseAndNoOther) {
+TEST_F(PairingWindowTest, EndsOnlyTheAttemptWithInvalidMessages) {
     show_codes("a", host);
     EXPECT_TRUE(refuses(window.hear_nonsense("b", "damaged", now)));
     EXPECT_TRUE(window.to_compare());

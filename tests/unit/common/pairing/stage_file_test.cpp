@@ -18,7 +18,7 @@ struct StageFileTest : testing::Test {
     }
 };
 
-TEST_F(StageFileTest, IsMadeWithKeysAndGrowsByRigs) {
+TEST_F(StageFileTest, IsCreatedWithKeysAndGetsRigs) {
     StageFile file(path);
     EXPECT_FALSE(file.is_there());
     const CurveKeys keys = file.host_keys();
@@ -34,7 +34,7 @@ TEST_F(StageFileTest, IsMadeWithKeysAndGrowsByRigs) {
     EXPECT_EQ(StageFile(path).host_keys().public_key, keys.public_key);
 }
 
-TEST_F(StageFileTest, KeepsWhatAPersonWrote) {
+TEST_F(StageFileTest, KeepsExistingText) {
     const std::string text =
         "# mine\nversion = 1\n[[rigs]]\nname = \"a\"\nendpoint = \"tcp://127.0.0.1:5600\"\n"
         "[view]\nwidth_px = 640   # small";
@@ -52,7 +52,7 @@ TEST_F(StageFileTest, KeepsWhatAPersonWrote) {
         EXPECT_NE(now.find(kept), std::string::npos) << now;
 }
 
-TEST_F(StageFileTest, StaysAsItIsWhereARigCannotBeAdded) {
+TEST_F(StageFileTest, IsUnchangedIfARigCannotBeAdded) {
     StageFile file(path);
     file.host_keys();
     file.add(rig("north"), 30);

@@ -21,9 +21,9 @@ std::vector<Finding> findings_for(const RigStatus& rig) {
     return findings_of(status, "stage.toml");
 }
 
-TEST(StageFindings, AreNoneOfARigThatHasAll) { EXPECT_TRUE(findings_for(good_rig()).empty()); }
+TEST(StageFindings, AreEmptyForAGoodRig) { EXPECT_TRUE(findings_for(good_rig()).empty()); }
 
-TEST(StageFindings, NameWhatBlocksAndWhatOnlyLacks) {
+TEST(StageFindings, DistinguishBlockingFaultsFromOthers) {
     RigStatus rig = good_rig();
     rig.sync.rate_hz = 25;
     rig.sync.disciplined = false;
@@ -38,7 +38,7 @@ TEST(StageFindings, NameWhatBlocksAndWhatOnlyLacks) {
               std::string::npos);
 }
 
-TEST(StageFindings, SayOfARigThatIsAwayOnlyThat) {
+TEST(StageFindings, ReportOnlyThatARigIsDisconnected) {
     RigStatus rig = good_rig();
     rig.connected = false;
     rig.unreachable = "connection refused";
@@ -49,7 +49,7 @@ TEST(StageFindings, SayOfARigThatIsAwayOnlyThat) {
     EXPECT_EQ(findings[0].what, "connection refused");
 }
 
-TEST(StageFindings, TakeAnotherCountOfTaiForWhatItIs) {
+TEST(StageFindings, ReportADifferentTaiOffset) {
     RigStatus rig = good_rig();
     rig.sync.tai_offset_s = 37;
     const std::vector<Finding> findings = findings_for(rig);

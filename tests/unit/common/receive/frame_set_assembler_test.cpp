@@ -81,7 +81,7 @@ void one_at_the_rate_of_three(Stage& stage, std::uint64_t index) {
     stage.frame(0, index);
 }
 
-TEST(FrameSetAssembler, RigsAtAnotherRateTakeNothingFromTheRigAtTheStages) {
+TEST(FrameSetAssembler, RigsAtAnotherRateDoNotAffectTheRigAtTheStagesRate) {
     Stage stage(3);
     for (const std::size_t rig : {1, 2}) stage.assembler().set_at_stage_rate(rig, false);
     one_at_the_rate_of_three(stage, 1000);
@@ -89,7 +89,8 @@ TEST(FrameSetAssembler, RigsAtAnotherRateTakeNothingFromTheRigAtTheStages) {
         one_at_the_rate_of_three(stage, index);
         EXPECT_THAT(stage.closed_indices(), testing::Contains(index));
     }
-    EXPECT_EQ(stage.count(FrameFate::in_background), 11 + 2) << "the first ones came before any other";
+    EXPECT_EQ(stage.count(FrameFate::in_frame_set), 11 + 2)
+        << "the first ones came before any other";
     EXPECT_EQ(stage.count(FrameFate::out_of_step), 2 * 10);
 }
 
@@ -99,12 +100,12 @@ TEST(FrameSetAssembler, RigsThatAreAllAtAnotherRateAreJoined) {
     for (std::uint64_t index = 1000; index < 1010; ++index) {
         stage.at(3 * index, 10ms);
         for (const std::size_t rig : {0, 1})
-            EXPECT_EQ(stage.frame(rig, index), FrameFate::in_background) << index;
+            EXPECT_EQ(stage.frame(rig, index), FrameFate::in_frame_set) << index;
         EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
     }
 }
 
-TEST(FrameSetAssembler, ARigThatLagsIsWaitedForAgainOnceItComesWithinTheBudget) {
+TEST(FrameSetAssembler, WaitsForALaggingRigAgainOnceItIsInTime) {
     Stage stage(2);
     start(stage, 2, 100);
     std::uint64_t index = 101;
@@ -137,11 +138,11 @@ TEST(FrameSetAssembler, ARigThatLagsIsWaitedForAgainOnceItComesWithinTheBudget) 
     stage.frame(0, index);
     EXPECT_THAT(stage.closed_indices(), IsEmpty());
     stage.pass(50ms);
-    EXPECT_EQ(stage.frame(1, index), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(1, index), FrameFate::in_frame_set);
     EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
 }
 
-TEST(FrameSetAssembler, ASetClosesAtOnceWhenEveryRigHasDelivered) {
+TEST(FrameSetAssembler, AFrameSetClosesWhenEveryRigHasDelivered) {
     Stage stage(3);
     start(stage, 3, 100);
     stage.at(101, 10ms);
@@ -157,7 +158,7 @@ TEST(FrameSetAssembler, ASetClosesAtOnceWhenEveryRigHasDelivered) {
     EXPECT_EQ(sets[0].complete, stage.now());
 }
 
-TEST(FrameSetAssembler, ALateRigIsLeftOutAndShownAsLate) {
+TEST(FrameSetAssembler, ALateRigIsAbsentAndMarkedLate) {
     Stage stage(3);
     start(stage, 3, 100);
     stage.at(101, 10ms);
@@ -176,7 +177,7 @@ TEST(FrameSetAssembler, ALateRigIsLeftOutAndShownAsLate) {
     EXPECT_FALSE(stage.assembler().next_deadline());
 }
 
-TEST(FrameSetAssembler, ARigThatGoesPastAPulseMissedIt) {
+TEST(FrameSetAssembler, ARigThatSkipsAPulseMissedIt) {
     Stage stage(2);
     start(stage, 2, 100);
     stage.at(101, 10ms);
@@ -201,7 +202,7 @@ TEST(FrameSetAssembler, ARigThatNeverCameDelaysNothing) {
     }
 }
 
-TEST(FrameSetAssembler, ARigThatIsGoneIsNotWaitedForUntilItIsBack) {
+TEST(FrameSetAssembler, DoesNotWaitForADisconnectedRig) {
     Stage stage(2);
     start(stage, 2, 100);
     stage.at(101, 10ms);
@@ -225,7 +226,7 @@ TEST(FrameSetAssembler, ARigThatIsGoneIsNotWaitedForUntilItIsBack) {
     EXPECT_THAT(stage.closed(), IsEmpty()) << "it is waited for again";
 }
 
-TEST(FrameSetAssembler, ARigIsWaitedForOnlyAtThePulsesItIsAskedFor) {
+TEST(FrameSetAssembler, WaitsForARigOnlyAtItsRequestedPulses) {
     Stage stage(2);
     start(stage, 2, 100);
     stage.assembler().set_asked(1, 3);
@@ -247,7 +248,7 @@ TEST(FrameSetAssembler, ARigIsWaitedForOnlyAtThePulsesItIsAskedFor) {
     EXPECT_THAT(stage.closed_indices(), ElementsAre(105)) << "asked to stop";
 }
 
-TEST(FrameSetAssembler, RigsThatAreAskedForFewPulsesAreWaitedForAtThose) {
+TEST(FrameSetAssembler, WaitsForRigsWithFewRequestedPulses) {
     Stage stage(2);
     for (const std::size_t rig : {0, 1}) stage.assembler().set_asked(rig, 50);
     start(stage, 2, 100);
@@ -258,7 +259,7 @@ TEST(FrameSetAssembler, RigsThatAreAskedForFewPulsesAreWaitedForAtThose) {
     EXPECT_EQ(stage.closed().at(0).present(), 2);
 }
 
-TEST(FrameSetAssembler, ASilentRigIsWaitedForALatencyBudgetAndTwoPeriods) {
+TEST(FrameSetAssembler, WaitsForASilentRigForTheBudgetAndTwoPeriods) {
     Stage stage(2);
     start(stage, 2, 100);
     const MonotonicTime silent_since = stage.now();
@@ -271,7 +272,7 @@ TEST(FrameSetAssembler, ASilentRigIsWaitedForALatencyBudgetAndTwoPeriods) {
     }
 }
 
-TEST(FrameSetAssembler, OnASlowStageRigsAreWaitedForAsWell) {
+TEST(FrameSetAssembler, WaitsForRigsOnASlowStage) {
     FrameSetAssembler assembler({"a", "b"}, {5s, 200ms});
     const auto frame = [](std::uint64_t index) {
         auto made = std::make_shared<RigFrame>();
@@ -365,7 +366,7 @@ TEST(FrameSetAssembler, ASecondFrameOfAPulseIsADuplicateAndTheFirstStays) {
     EXPECT_EQ(stage.frame(0, 101, 1), FrameFate::late);
 }
 
-TEST(FrameSetAssembler, SetsCloseInTheOrderOfTheirPulses) {
+TEST(FrameSetAssembler, FrameSetsCloseInTheOrderOfTheirPulses) {
     Stage stage(3);
     start(stage, 3, 100);
     stage.at(101, 10ms);
@@ -376,7 +377,7 @@ TEST(FrameSetAssembler, SetsCloseInTheOrderOfTheirPulses) {
     EXPECT_THAT(stage.closed_indices(), ElementsAre(101, 102));
 }
 
-TEST(FrameSetAssembler, OpenSetsAreBounded) {
+TEST(FrameSetAssembler, OpenFrameSetsAreBounded) {
     Stage stage(2);
     start(stage, 2, 100);
     // A burst within one instant: nothing can time out.
@@ -406,7 +407,7 @@ TEST(FrameSetAssembler, ARestartedRigThatKeepsCountingInStepIsJoinedAtOnce) {
 
 class JumpTest : public testing::TestWithParam<std::int64_t> {};
 
-TEST_P(JumpTest, OneRigThatCountsDifferentlyIsLeftOutAndTakesNothingFromTheOthers) {
+TEST_P(JumpTest, ARigOutOfStepIsExcludedWithoutAffectingOthers) {
     Stage stage(3);
     constexpr std::uint64_t begin = 1'000'000;
     start(stage, 3, begin);
@@ -431,7 +432,7 @@ TEST_P(JumpTest, OneRigThatCountsDifferentlyIsLeftOutAndTakesNothingFromTheOther
     EXPECT_EQ(stage.closed().at(0).present(), 3);
 }
 
-TEST_P(JumpTest, AStageThatIsRestartedRigByRigIsFollowed) {
+TEST_P(JumpTest, FollowsAStageThatIsRestartedRigByRig) {
     Stage stage(3);
     constexpr std::uint64_t begin = 1'000'000;
     start(stage, 3, begin);
@@ -457,13 +458,13 @@ TEST_P(JumpTest, AStageThatIsRestartedRigByRigIsFollowed) {
     EXPECT_EQ(with_all_of_the_new, 30);
 }
 
-TEST_P(JumpTest, TheOnlyRigIsFollowedWhereverItGoes) {
+TEST_P(JumpTest, FollowsTheOnlyRig) {
     Stage stage(1);
     constexpr std::uint64_t begin = 1'000'000;
     start(stage, 1, begin);
     stage.at(begin + 3, 10ms);
     const auto index = static_cast<std::uint64_t>(begin + GetParam());
-    EXPECT_EQ(stage.frame(0, index, 2), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(0, index, 2), FrameFate::in_frame_set);
     EXPECT_THAT(stage.closed_indices(), ElementsAre(index));
 }
 
@@ -478,7 +479,7 @@ TEST(FrameSetAssembler, TheOnlyRigIsFollowedWhenARestartTakesItBackALittle) {
         stage.closed();
     }
     stage.at(31, 10ms);
-    EXPECT_EQ(stage.frame(0, 1, 2), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(0, 1, 2), FrameFate::in_frame_set);
     EXPECT_THAT(stage.closed_indices(), ElementsAre(1));
 }
 
@@ -486,14 +487,14 @@ TEST(FrameSetAssembler, UnsynchronizedFramesAreNeverJoinedWithOthers) {
     Stage stage(2);
     stage.at(1, 10ms);
     EXPECT_EQ(stage.frame(0, 1, 1, false), FrameFate::unsynchronized);
-    EXPECT_EQ(stage.frame(1, 1, 1, true), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(1, 1, 1, true), FrameFate::in_frame_set);
     const auto sets = stage.closed();
     ASSERT_EQ(sets.size(), 1u);
     EXPECT_EQ(sets[0].slots[0].absence, Absence::unsynchronized);
     EXPECT_EQ(sets[0].slots[0].frame, nullptr);
 }
 
-TEST(FrameSetAssembler, ARigWhoseWireIsPulledIsNamedUntilItsFramesNamePulsesAgain) {
+TEST(FrameSetAssembler, ReportsARigWithoutPulsesUntilTheyReturn) {
     Stage stage(2);
     start(stage, 2, 100);
     std::uint64_t index = 101;
@@ -505,7 +506,7 @@ TEST(FrameSetAssembler, ARigWhoseWireIsPulledIsNamedUntilItsFramesNamePulsesAgai
     }
     EXPECT_EQ(index, 111u) << "a few may lack theirs";
     stage.at(index, 10ms);
-    EXPECT_EQ(stage.frame(0, index), FrameFate::in_background);
+    EXPECT_EQ(stage.frame(0, index), FrameFate::in_frame_set);
     EXPECT_FALSE(stage.assembler().names_no_pulse(0));
 }
 
@@ -513,7 +514,7 @@ TEST(FrameSetAssembler, OnAStageOfOneRigUnsynchronizedFramesAreTakenAsTheyCome) 
     Stage stage(1);
     for (std::uint64_t k = 1; k < 4; ++k) {
         stage.at(k, 10ms);
-        EXPECT_EQ(stage.frame(0, k, 1, false), FrameFate::in_background);
+        EXPECT_EQ(stage.frame(0, k, 1, false), FrameFate::in_frame_set);
         EXPECT_THAT(stage.closed_indices(), ElementsAre(k));
     }
 }
@@ -540,8 +541,8 @@ TEST(FrameSetAssembler, EveryFrameHasExactlyOneFate) {
     stage.pass(budget);
     collect();
     EXPECT_EQ(stage.assembler().open_frame_sets(), 0u);
-    EXPECT_EQ(in_closed_frame_sets, stage.count(FrameFate::in_background));
-    EXPECT_EQ(given, stage.count(FrameFate::in_background) + stage.count(FrameFate::late) +
+    EXPECT_EQ(in_closed_frame_sets, stage.count(FrameFate::in_frame_set));
+    EXPECT_EQ(given, stage.count(FrameFate::in_frame_set) + stage.count(FrameFate::late) +
                          stage.count(FrameFate::duplicate) +
                          stage.count(FrameFate::unsynchronized) +
                          stage.count(FrameFate::out_of_step));

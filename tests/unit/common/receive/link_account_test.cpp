@@ -25,7 +25,7 @@ TEST(LinkAccount, CountsNothingLostWhileFramesFollowEachOther) {
     EXPECT_EQ(account.lost(), 0u);
 }
 
-TEST(LinkAccount, FindsLossesByTheNextFrameOrHeartbeat) {
+TEST(LinkAccount, DetectsLossesWithTheNextFrameOrHeartbeat) {
     LinkAccount account;
     account.hear(message_of(1, 1), true);
     EXPECT_EQ(account.hear(message_of(1, 4), true), 2u);
@@ -43,7 +43,7 @@ TEST(LinkAccount, ANewLinkStartsItsOwnCount) {
     EXPECT_EQ(account.hear(message_of(3, 3), true), 2u);
 }
 
-TEST(LinkAccount, ACountThatGoesBackwardsIsRefusedAndChangesNothing) {
+TEST(LinkAccount, RefusesADecreasingCount) {
     LinkAccount account;
     account.hear(message_of(1, 1), true);
     account.hear(message_of(1, 2), true);
@@ -62,7 +62,7 @@ RigMessage message_of_session(std::uint64_t session, const LinkCounters& link,
     return message;
 }
 
-TEST(LinkAccount, AddsUpWhatARigCountsOverItsRestarts) {
+TEST(LinkAccount, SumsARigsCountsOverRestarts) {
     LinkAccount account;
     account.hear(message_of_session(1, {0, 0, 0, 0}, {}), false);
     account.hear(message_of_session(1, {10, 1, 2, 3}, {12, 1, 1, 10, 2}), true);
@@ -72,7 +72,7 @@ TEST(LinkAccount, AddsUpWhatARigCountsOverItsRestarts) {
     EXPECT_EQ(account.rig_counters(), (RigCounters{17, 3, 1, 14, 2}));
 }
 
-TEST(LinkAccount, LeavesOutWhatTheRigCountedBeforeThisHostCame) {
+TEST(LinkAccount, SubtractsCountsFromBeforeThisHost) {
     LinkAccount account;
     // Two frames are inside the rig.
     account.hear(message_of_session(1, {}, {1002, 7, 30, 970, 5}), false);
@@ -81,7 +81,7 @@ TEST(LinkAccount, LeavesOutWhatTheRigCountedBeforeThisHostCame) {
     EXPECT_EQ(account.rig_counters(), (RigCounters{3, 1, 0, 3, 0}));
 }
 
-TEST(LinkAccount, HandledFramesAreThoseOfThePresentLink) {
+TEST(LinkAccount, HandledFramesAreThoseOfTheCurrentLink) {
     LinkAccount account;
     account.hear(message_of(1, 1), true);
     account.hear(message_of(1, 2), true);

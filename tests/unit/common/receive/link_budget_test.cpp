@@ -18,7 +18,7 @@ std::vector<RigWeight> four_full_size() {
     return {full_size("a"), full_size("b"), full_size("c"), full_size("d")};
 }
 
-TEST(LinkBudget, CountsWhatGoesOverTheWire) {
+TEST(LinkBudget, IncludesProtocolOverhead) {
     const LinkBudget budget = plan_links({full_size("north")}, 30, {});
     ASSERT_EQ(budget.rigs.size(), 1u);
     // 820 kB, 30 a second, with 7 % of packets' headers.
@@ -29,7 +29,7 @@ TEST(LinkBudget, CountsWhatGoesOverTheWire) {
     EXPECT_TRUE(budget.proposals.empty());
 }
 
-TEST(LinkBudget, OfFourFullSizeRigsOnOneGigabitSaysWhatFits) {
+TEST(LinkBudget, ProposesQualitiesForFourRigsOnOneGigabit) {
     const LinkBudget budget = plan_links(four_full_size(), 30, {});
     for (const LinkBudget::Rig& rig : budget.rigs) EXPECT_LT(rig.share, 1);
     EXPECT_GT(budget.host_share, 1);
@@ -43,7 +43,7 @@ TEST(LinkBudget, OfFourFullSizeRigsOnOneGigabitSaysWhatFits) {
         EXPECT_LE(proposal.host_mbit_s, 800);
 }
 
-TEST(LinkBudget, NamesTheRigWhoseOwnLinkIsTooNarrow) {
+TEST(LinkBudget, NamesARigWhoseLinkIsTooSlow) {
     std::vector<RigWeight> weights = four_full_size();
     weights[2].colour_bytes *= 4;
     const LinkBudget budget = plan_links(weights, 30, {.rig_mbit_s = 500, .host_mbit_s = 10'000});
@@ -65,7 +65,7 @@ TEST(LinkBudget, ProposesTheLargestSmallerPicturesThatFit) {
     EXPECT_NEAR(budget.proposals[2].host_mbit_s, 4 * 8 * (0.42 + 0.0675) * 30 * 1.073, 1);
 }
 
-TEST(LinkBudget, ProposesAProgrammeThatAsksForFewRigs) {
+TEST(LinkBudget, ProposesFewerRigsPerProgramme) {
     LinkLimits limits{.host_mbit_s = 600, .programme_rigs = 2};
     const LinkBudget budget = plan_links(four_full_size(), 30, limits);
     ASSERT_FALSE(budget.proposals.empty());
@@ -79,7 +79,7 @@ TEST(LinkBudget, ProposesAProgrammeThatAsksForFewRigs) {
         EXPECT_EQ(one.rigs, 0u) << "all are needed";
 }
 
-TEST(LinkBudget, HasNothingToProposeWhereNothingFits) {
+TEST(LinkBudget, ProposesNothingIfNothingFits) {
     const LinkBudget budget = plan_links(four_full_size(), 30, {.host_mbit_s = 10});
     EXPECT_FALSE(budget.fits());
     EXPECT_TRUE(budget.proposals.empty());

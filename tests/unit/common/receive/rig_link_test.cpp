@@ -102,7 +102,7 @@ class RigLinkTest : public testing::Test {
     std::optional<HostMessage> heard_;
 };
 
-TEST_F(RigLinkTest, NeverSaysThatMoreFramesWereHandledThanCame) {
+TEST_F(RigLinkTest, NeverReportsMoreHandledFramesThanCame) {
     connect(7);
     for (const std::uint64_t sent : {1, 2, 3}) say(7, sent, true);
     request_.unhandled = 3;
@@ -116,7 +116,7 @@ TEST_F(RigLinkTest, NeverSaysThatMoreFramesWereHandledThanCame) {
     ASSERT_TRUE(until([&] { return heard_->handled == 1; }));
 }
 
-TEST_F(RigLinkTest, ARigWhoseConnectionBreaksIsGoneAtOnce) {
+TEST_F(RigLinkTest, ABrokenConnectionDisconnectsTheRigAtOnce) {
     connect(7);
     const std::string place = endpoint();
     rig_.close();
@@ -136,7 +136,7 @@ TEST_F(RigLinkTest, ARigWhoseConnectionBreaksIsGoneAtOnce) {
     EXPECT_TRUE(until([&] { return connected(); }));
 }
 
-TEST_F(RigLinkTest, ARigThatRefusesIsGoneAtOnce) {
+TEST_F(RigLinkTest, ARefusalDisconnectsTheRigAtOnce) {
     connect(7);
     const MonotonicTime start = MonotonicClock::now();
     RigMessage refusal;
@@ -148,7 +148,7 @@ TEST_F(RigLinkTest, ARigThatRefusesIsGoneAtOnce) {
     EXPECT_EQ(view().refused, "no more hosts");
 }
 
-TEST_F(RigLinkTest, WhatIsNoMessageIsCounted) {
+TEST_F(RigLinkTest, CountsInvalidMessages) {
     connect(7);
     rig_.send(zmq::buffer(route_), zmq::send_flags::sndmore);
     rig_.send(zmq::str_buffer("\x12\x02\xff\xfe"), zmq::send_flags::none);

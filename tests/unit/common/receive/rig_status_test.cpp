@@ -26,44 +26,44 @@ TEST(RigStatus, NamesARigAtAnotherRateWithBoth) {
               "it runs at 2 Hz and the stage at 25 Hz: give both the same rate_hz");
 }
 
-TEST(RigStatus, TakesTheRatesOfBroadcastAsTheyAreWritten) {
+TEST(RigStatus, TreatsNotationsOfBroadcastRatesAsEqual) {
     RigStatus rig = good_rig();
     rig.stage_rate_hz = 29.97;
     rig.sync.rate_hz = 30000.0 / 1001;
-    EXPECT_EQ(rate_worry(rig), "");
+    EXPECT_EQ(rate_warning(rig), "");
     rig.sync.rate_hz = 30;
-    EXPECT_THAT(rate_worry(rig), HasSubstr("30 Hz and the stage at 29.97 Hz"));
+    EXPECT_THAT(rate_warning(rig), HasSubstr("30 Hz and the stage at 29.97 Hz"));
     rig.sync.rate_hz = 0;
-    EXPECT_EQ(rate_worry(rig), "") << "an older rig does not say";
+    EXPECT_EQ(rate_warning(rig), "") << "an older rig does not say";
 }
 
-TEST(RigStatus, SaysWhyARigIsNotConnected) {
+TEST(RigStatus, ReportsWhyARigIsNotConnected) {
     RigStatus rig = good_rig();
     rig.connected = false;
-    EXPECT_EQ(trouble_of(rig), "nothing was heard from tcp://north:5600");
+    EXPECT_EQ(trouble_of(rig), "tcp://north:5600 is silent");
     rig.unreachable = "the name north does not resolve";
     EXPECT_EQ(trouble_of(rig), "the name north does not resolve");
     rig.refused = "no more hosts";
     EXPECT_EQ(trouble_of(rig), "no more hosts");
 }
 
-TEST(RigStatus, SaysWhyAConnectedRigGivesNothing) {
+TEST(RigStatus, ReportsWhyAConnectedRigContributesNothing) {
     RigStatus rig = good_rig();
     rig.is_out_of_step = true;
     EXPECT_THAT(trouble_of(rig), HasSubstr("counts pulses differently"));
     rig = good_rig();
     rig.lags = true;
-    EXPECT_THAT(trouble_of(rig), HasSubstr("beyond the latency budget"));
+    EXPECT_THAT(trouble_of(rig), HasSubstr("after the latency budget"));
     rig = good_rig();
     rig.unsynchronized = 5;
-    EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));
+    EXPECT_THAT(trouble_of(rig), HasSubstr("no trigger pulse"));
     rig.in_frame_sets = 100;
     EXPECT_EQ(trouble_of(rig), "") << "some pictures do";
     rig.names_no_pulse = true;
-    EXPECT_THAT(trouble_of(rig), HasSubstr("name no pulse"));
+    EXPECT_THAT(trouble_of(rig), HasSubstr("no trigger pulse"));
 }
 
-TEST(RigStatus, AGoodRigGivesPicturesAndOneWithTroubleNone) {
+TEST(RigStatus, AFaultyRigContributesNoFrames) {
     const RigStatus good = good_rig();
     EXPECT_TRUE(gives_pictures(good, {good}));
     RigStatus rig = good;
@@ -77,7 +77,7 @@ TEST(RigStatus, AGoodRigGivesPicturesAndOneWithTroubleNone) {
     EXPECT_FALSE(gives_pictures(rig, {rig, good}));
 }
 
-TEST(RigStatus, ARigAtAnotherRateGivesPicturesWhileNoneAtTheStagesFilms) {
+TEST(RigStatus, ARigAtAnotherRateContributesIfNoneIsAtTheStagesRate) {
     RigStatus other = good_rig();
     other.sync.rate_hz = 5;
     EXPECT_TRUE(gives_pictures(other, {other, other}));

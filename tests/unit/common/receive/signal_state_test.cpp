@@ -22,12 +22,12 @@ SignalState state_of(const ReceiverStatus& status) {
     return signal_state(status, false, period, now);
 }
 
-TEST(SignalState, IsLiveWhileSetsCome) {
+TEST(SignalState, IsLiveWhileFrameSetsCome) {
     EXPECT_EQ(state_of(stage_with_a_background_of(0ms)), SignalState::live);
     EXPECT_EQ(state_of(stage_with_a_background_of(period + stale_after)), SignalState::live);
 }
 
-TEST(SignalState, GoesStaleAndThenIsNone) {
+TEST(SignalState, BecomesStaleAndThenNoSignal) {
     EXPECT_EQ(state_of(stage_with_a_background_of(period + stale_after + 1ns)), SignalState::stale);
     EXPECT_EQ(state_of(stage_with_a_background_of(period + no_signal_after)), SignalState::stale);
     EXPECT_EQ(state_of(stage_with_a_background_of(period + no_signal_after + 1ns)),
@@ -38,26 +38,26 @@ TEST(SignalState, ASlowStageIsNotStaleBetweenItsPulses) {
     EXPECT_EQ(signal_state(stage_with_a_background_of(5s), false, 5s, now), SignalState::live);
 }
 
-TEST(SignalState, WithoutARigThereIsNone) {
+TEST(SignalState, IsNoSignalWithoutARig) {
     ReceiverStatus status = stage_with_a_background_of(10ms);
     for (RigStatus& rig : status.rigs) rig.connected = false;
     EXPECT_EQ(state_of(status), SignalState::no_signal);
 }
 
-TEST(SignalState, WhereEveryRigIsAtAnotherRateItIsOneAllTheSame) {
+TEST(SignalState, IsLiveIfEveryRigIsAtAnotherRate) {
     ReceiverStatus status = stage_with_a_background_of(10ms);
     status.rigs[1].stage_rate_hz = 10;
     status.rigs[1].sync.rate_hz = 5;
     EXPECT_EQ(state_of(status), SignalState::live);
 }
 
-TEST(SignalState, BeforeTheFirstSetThereIsNone) {
+TEST(SignalState, IsNoSignalBeforeTheFirstFrameSet) {
     ReceiverStatus status = stage_with_a_background_of(0ms);
     status.newest_frame_set.reset();
     EXPECT_EQ(state_of(status), SignalState::no_signal);
 }
 
-TEST(SignalState, WhatTheOperatorHoldsIsHeldWhateverTheRigsDo) {
+TEST(SignalState, IsHoldWhateverTheRigsDo) {
     EXPECT_EQ(signal_state(stage_with_a_background_of(1h), true, period, now), SignalState::hold);
 }
 

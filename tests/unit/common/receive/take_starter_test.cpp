@@ -36,7 +36,7 @@ TEST_F(TakeStarterTest, AnnouncesNothingBeforeAllRigsAreReady) {
     EXPECT_EQ(update(10s), first) << "and stays";
 }
 
-TEST_F(TakeStarterTest, DoesNotWaitForEverForARigThatDoesNotCome) {
+TEST_F(TakeStarterTest, LimitsTheWaitForAnAbsentRig) {
     make_ready(0);
     make_ready(1);
     rigs_[2].connected = false;
@@ -45,13 +45,13 @@ TEST_F(TakeStarterTest, DoesNotWaitForEverForARigThatDoesNotCome) {
     EXPECT_TRUE(update(15s).has_value());
 }
 
-TEST_F(TakeStarterTest, GoesOnWithATakeThatRuns) {
+TEST_F(TakeStarterTest, ContinuesARunningTake) {
     rigs_[1].sync.ready = true;
     rigs_[1].sync.first_pulse = 4711;
     EXPECT_EQ(update(0s), 4711u);
 }
 
-TEST_F(TakeStarterTest, NamesOnceWhoIsNotReadyAWhileAfterTheTakeIsKnown) {
+TEST_F(TakeStarterTest, ReportsRigsThatAreNotReadyOnce) {
     rigs_[0].sync.first_pulse = 4711;
     make_ready(0);
     update(0s);
@@ -62,13 +62,13 @@ TEST_F(TakeStarterTest, NamesOnceWhoIsNotReadyAWhileAfterTheTakeIsKnown) {
     EXPECT_TRUE(starter_.laggards(rigs_, monotonic_ + 9s).empty());
 }
 
-TEST_F(TakeStarterTest, NamesNobodyBeforeThereIsATake) {
+TEST_F(TakeStarterTest, ReportsNoRigBeforeATake) {
     make_ready(0);
     update(0s);
     EXPECT_TRUE(starter_.laggards(rigs_, monotonic_ + 10s).empty());
 }
 
-TEST_F(TakeStarterTest, BelievesNoRigThatIsGone) {
+TEST_F(TakeStarterTest, IgnoresDisconnectedRigs) {
     rigs_[1].sync.first_pulse = 4711;
     rigs_[1].connected = false;
     EXPECT_EQ(update(0s), std::nullopt);

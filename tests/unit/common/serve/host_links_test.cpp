@@ -53,7 +53,7 @@ class HostLinksTest : public testing::Test {
     std::uint64_t link_ = 0;
 };
 
-TEST_F(HostLinksTest, WithoutHostsFramesArePublishedToNobody) {
+TEST_F(HostLinksTest, PublishesNothingWithoutHosts) {
     offer(1, 3);
     EXPECT_TRUE(links_.take().empty());
     EXPECT_EQ(links_.rig_counters().published, 3u);
@@ -78,7 +78,7 @@ TEST_F(HostLinksTest, AHostIsSentNoFrameBeforeItGrantsCreditOnItsLink) {
     EXPECT_THAT(indices(links_.take()), testing::ElementsAre(1, 2));
 }
 
-TEST_F(HostLinksTest, CreditBoundsWhatIsUnderWayAndTheQueueDropsItsOldest) {
+TEST_F(HostLinksTest, CreditBoundsSentFramesAndTheQueueDropsTheOldest) {
     attach("r1", 5, 2);
     offer(1, 8);
     // Nothing was taken in between, so all of them met the queue.
@@ -90,7 +90,7 @@ TEST_F(HostLinksTest, CreditBoundsWhatIsUnderWayAndTheQueueDropsItsOldest) {
     EXPECT_EQ(links_.rig_counters().send_dropped, 5u);
 }
 
-TEST_F(HostLinksTest, SaysOnceWhichHostWasTooSlowForHowManyFrames) {
+TEST_F(HostLinksTest, ReportsFramesDroppedForSlowHostsOnce) {
     attach("route", 7, 2);
     offer(1, 8);
     (void)links_.take();
@@ -101,7 +101,7 @@ TEST_F(HostLinksTest, SaysOnceWhichHostWasTooSlowForHowManyFrames) {
     EXPECT_EQ(links_.take_overrun().frames, 0u);
 }
 
-TEST_F(HostLinksTest, StrangersHereAreCountedBesideThoseOfTheRigThatIsRelayed) {
+TEST_F(HostLinksTest, AddsRefusedConnectionsToThoseOfTheRelayedRig) {
     RigHealth health;
     health.refused_connections = 5;
     links_.set_health(health);
@@ -114,7 +114,7 @@ TEST_F(HostLinksTest, StrangersHereAreCountedBesideThoseOfTheRigThatIsRelayed) {
     EXPECT_EQ(links_.health().refused_connections, 5u);
 }
 
-TEST_F(HostLinksTest, CreditComesBackAsTheHostHandlesFrames) {
+TEST_F(HostLinksTest, HandledFramesReturnCredit) {
     attach("r1", 5, 1);
     offer(1, 3);
     EXPECT_THAT(indices(links_.take()), testing::ElementsAre(1));
@@ -127,7 +127,7 @@ TEST_F(HostLinksTest, CreditComesBackAsTheHostHandlesFrames) {
     EXPECT_THAT(indices(links_.take()), testing::ElementsAre(2));
 }
 
-TEST_F(HostLinksTest, AHostThatClaimsMoreThanItGotGainsNothing) {
+TEST_F(HostLinksTest, AHostCannotGainCreditByFalseCounts) {
     attach("r1", 5, 1);
     HostMessage message;
     message.host_id = 5;
@@ -153,7 +153,7 @@ TEST_F(HostLinksTest, EachHostHasItsOwnCreditQueueAndCount) {
     EXPECT_THAT(by_route["r2"], testing::ElementsAre(1));
 }
 
-TEST_F(HostLinksTest, FramesAreThinnedByPulseNotByCount) {
+TEST_F(HostLinksTest, SkipsFramesByPulseNotByCount) {
     attach("r1", 5, 16);
     HostMessage message;
     message.host_id = 5;
@@ -170,7 +170,7 @@ TEST_F(HostLinksTest, FramesAreThinnedByPulseNotByCount) {
     EXPECT_EQ(links_.hosts().at(0).counters, (LinkCounters{10, 2, 0, 8}));
 }
 
-TEST_F(HostLinksTest, ASilentHostIsLetGoAndItsQueueCounted) {
+TEST_F(HostLinksTest, ASilentHostIsRemovedAndItsQueueCounted) {
     attach("r1", 5, 1);
     offer(1, 3);
     links_.take();
@@ -185,7 +185,7 @@ TEST_F(HostLinksTest, ASilentHostIsLetGoAndItsQueueCounted) {
     EXPECT_EQ(links_.hosts().at(0).counters, (LinkCounters{3, 1, 2, 0}));
 }
 
-TEST_F(HostLinksTest, AHostThatComesBackOnAnotherConnectionKeepsItsCount) {
+TEST_F(HostLinksTest, AReconnectedHostKeepsItsCounts) {
     attach("r1", 5, 2);
     offer(1, 2);
     links_.take();
@@ -220,7 +220,7 @@ TEST_F(HostLinksTest, FramesTheSocketCouldNotTakeCountAsDroppedNotAsSent) {
     EXPECT_EQ(links_.rig_counters().send_dropped, 3u);
 }
 
-TEST_F(HostLinksTest, AtItsLimitItForgetsTheHostLongestGoneAndElseRefuses) {
+TEST_F(HostLinksTest, AtItsLimitItForgetsTheLongestAbsentHostOrRefuses) {
     for (std::uint64_t host = 1; host <= HostLinks::max_hosts; ++host)
         attach("r" + std::to_string(host), host, 1);
     HostMessage message;
@@ -254,7 +254,7 @@ TEST_F(HostLinksTest, HeartbeatsGoToAttachedHostsAndCarryTheNewestCounts) {
     EXPECT_TRUE(links_.take().empty());
 }
 
-TEST_F(HostLinksTest, RawPairsGoToTheHostsThatAskForThemAndViewsToTheOthers) {
+TEST_F(HostLinksTest, RawPairsGoToHostsThatRequestThemAndViewsToOthers) {
     attach("films", 5, 9);
     HostMessage request;
     request.host_id = 6;
@@ -282,7 +282,7 @@ TEST_F(HostLinksTest, RawPairsGoToTheHostsThatAskForThemAndViewsToTheOthers) {
     EXPECT_FALSE(links_.wants_raw_pair(4));
 }
 
-TEST_F(HostLinksTest, ARigWithoutViewsSaysSoToHostsThatWantThemAndServesRawPairs) {
+TEST_F(HostLinksTest, ARigWithoutViewsRefusesThemAndServesRawPairs) {
     links_.serve_raw_pairs_only("no calibration yet");
     HostMessage request;
     request.host_id = 5;
@@ -326,7 +326,7 @@ class HostLinksFetchTest : public HostLinksTest {
     }
 };
 
-TEST_F(HostLinksFetchTest, SendsNoMoreThanIsGrantedAndSaysWhenNothingIsLeft) {
+TEST_F(HostLinksFetchTest, SendsWithinCreditAndReportsTheEnd) {
     links_.serve_kept();
     ask(5, {7, 100, 110, 0});
     EXPECT_FALSE(links_.next_fetch());
@@ -350,7 +350,7 @@ TEST_F(HostLinksFetchTest, SendsNoMoreThanIsGrantedAndSaysWhenNothingIsLeft) {
     EXPECT_EQ(links_.hosts()[0].fetched, 1u);
 }
 
-TEST_F(HostLinksFetchTest, AnotherIdBeginsAnewAndWhatWasUnderWayIsForgotten) {
+TEST_F(HostLinksFetchTest, AnotherIdRestartsTheFetch) {
     links_.serve_kept();
     ask(5, {7, 100, 110, 4});
     const auto job = links_.next_fetch();
@@ -360,7 +360,7 @@ TEST_F(HostLinksFetchTest, AnotherIdBeginsAnewAndWhatWasUnderWayIsForgotten) {
     EXPECT_EQ(links_.next_fetch()->from_pulse, 200u);
 }
 
-TEST_F(HostLinksFetchTest, HostsAreServedInTurnAndCreditIsBounded) {
+TEST_F(HostLinksFetchTest, ServesHostsInTurnWithinBoundedCredit) {
     links_.serve_kept();
     ask(5, {7, 0, 1000, ~std::uint64_t{0}});
     ask(6, {9, 0, 1000, ~std::uint64_t{0}});
@@ -375,7 +375,7 @@ TEST_F(HostLinksFetchTest, HostsAreServedInTurnAndCreditIsBounded) {
     EXPECT_EQ(jobs[9], static_cast<int>(max_credit_window));
 }
 
-TEST_F(HostLinksFetchTest, ARigThatKeepsNothingRefusesAndCounts) {
+TEST_F(HostLinksFetchTest, ARigWithoutRecordingsRefusesAndCounts) {
     ask(5, {7, 100, 110, 4});
     EXPECT_FALSE(links_.next_fetch());
     const auto all = sent();
@@ -386,7 +386,7 @@ TEST_F(HostLinksFetchTest, ARigThatKeepsNothingRefusesAndCounts) {
     EXPECT_EQ(links_.refused_fetches(), 1u) << "the same wish again";
 }
 
-TEST_F(HostLinksFetchTest, AHostThatIsGoneIsLookedUpNothingFor) {
+TEST_F(HostLinksFetchTest, NothingIsLookedUpForADisconnectedHost) {
     links_.serve_kept();
     ask(5, {7, 100, 110, 4});
     links_.expire(now_ + 10s);

@@ -83,24 +83,25 @@ class StrangerWatchTest : public testing::Test {
     std::unique_ptr<FrameServer> server_;
 };
 
-TEST_F(StrangerWatchTest, TellsOfWhoLeavesBeforeItHasGreeted) {
+TEST_F(StrangerWatchTest, ReportsAConnectionClosedBeforeTheHandshake) {
     serve("left");
     connection_to(server_->endpoint());
     ASSERT_TRUE(is_refused());
-    EXPECT_TRUE(
-        eventually([] { return lines_with("left", "left before it had greeted").size() == 1; }));
+    EXPECT_TRUE(eventually([] {
+        return lines_with("left", "closed the connection before the handshake").size() == 1;
+    }));
 }
 
-TEST_F(StrangerWatchTest, TellsOfWhoSpeaksAnotherProtocol) {
+TEST_F(StrangerWatchTest, ReportsAnotherProtocol) {
     serve("foreign");
     const UniqueFd browser = connection_to(server_->endpoint());
     say(browser, "GET / HTTP/1.1\r\nHost: rig\r\n\r\n");
     ASSERT_TRUE(is_refused());
-    EXPECT_TRUE(
-        eventually([] { return lines_with("foreign", "says what no host says").size() == 1; }));
+    EXPECT_TRUE(eventually(
+        [] { return lines_with("foreign", "does not speak Vantage's protocol").size() == 1; }));
 }
 
-TEST_F(StrangerWatchTest, TellsOfWhoHasNoKey) {
+TEST_F(StrangerWatchTest, ReportsAConnectionWithoutKey) {
     serve("keyless");
     // One of ZeroMQ's own may leave first, as it sees that keys are asked for.
     const UniqueFd stranger = connection_to(server_->endpoint());
@@ -109,25 +110,25 @@ TEST_F(StrangerWatchTest, TellsOfWhoHasNoKey) {
     say(stranger, greeting);
     ASSERT_TRUE(is_refused());
     EXPECT_TRUE(
-        eventually([] { return lines_with("keyless", "comes without a key").size() == 1; }));
+        eventually([] { return lines_with("keyless", "connected without a key").size() == 1; }));
 }
 
-TEST_F(StrangerWatchTest, TellsOfWhoForgesAHandshake) {
+TEST_F(StrangerWatchTest, ReportsAForgedHandshake) {
     serve("forged");
     const zmq::socket_t stranger = peer(host_, generate_curve_keys().public_key);
     ASSERT_TRUE(is_refused());
     EXPECT_TRUE(eventually(
-        [] { return lines_with("forged", "does not hold this rig's public key").size() == 1; }));
+        [] { return lines_with("forged", "does not have this rig's public key").size() == 1; }));
 }
 
-TEST_F(StrangerWatchTest, CountsAKeyThatIsNotListedAndLeavesItsLineToTheAdmission) {
+TEST_F(StrangerWatchTest, CountsAnUnlistedKeyWithoutALineOfItsOwn) {
     serve("unlisted");
     const zmq::socket_t stranger = peer(generate_curve_keys(), server_->public_key());
     ASSERT_TRUE(is_refused());
     EXPECT_TRUE(lines_with("unlisted", "").empty());
 }
 
-TEST_F(StrangerWatchTest, HostsThatComeAndGoAreNoStrangers) {
+TEST_F(StrangerWatchTest, DoesNotReportHosts) {
     serve("hosts");
     HostMessage message;
     message.host_id = 7;
@@ -140,11 +141,11 @@ TEST_F(StrangerWatchTest, HostsThatComeAndGoAreNoStrangers) {
         zmq::message_t welcome;
         ASSERT_TRUE(host.recv(welcome));
     }
-    EXPECT_TRUE(lines_with("hosts", "says what no host says").empty());
+    EXPECT_TRUE(lines_with("hosts", "does not speak Vantage's protocol").empty());
     EXPECT_TRUE(lines_with("hosts", "key").empty());
 }
 
-TEST_F(StrangerWatchTest, ManyKeysThatAreNotListedAreNamedAFewTimes) {
+TEST_F(StrangerWatchTest, LimitsTheLinesAboutUnlistedKeys) {
     serve("crowd");
     for (int i = 0; i < 30; ++i) {
         const zmq::socket_t stranger = peer(generate_curve_keys(), server_->public_key());
@@ -157,7 +158,7 @@ TEST_F(StrangerWatchTest, ManyKeysThatAreNotListedAreNamedAFewTimes) {
     EXPECT_EQ(named, 8);
 }
 
-TEST(StrangerWatch, AFloodIsALineInTenSecondsThatSaysHowMany) {
+TEST(StrangerWatch, ReportsAFloodOncePerTenSeconds) {
     zmq::context_t context;
     zmq::socket_t socket(context, zmq::socket_type::router);
     socket.set(zmq::sockopt::linger, 0);
@@ -173,16 +174,16 @@ TEST(StrangerWatch, AFloodIsALineInTenSecondsThatSaysHowMany) {
         }));
     }
     ASSERT_EQ(lines_with("flood", "").size(), 1u);
-    EXPECT_EQ(lines_with("flood", "were refused: 1;").size(), 1u);
+    EXPECT_EQ(lines_with("flood", "not from a host: 1;").size(), 1u);
     watch.look(start + 9s);
     EXPECT_EQ(lines_with("flood", "").size(), 1u);
     watch.look(start + 10s);
-    EXPECT_EQ(lines_with("flood", "were refused: 199;").size(), 1u);
+    EXPECT_EQ(lines_with("flood", "not from a host: 199;").size(), 1u);
     watch.look(start + 30s);
     EXPECT_EQ(lines_with("flood", "").size(), 2u);
 }
 
-TEST(StrangerWatch, EndsWellInTheMiddleOfAFlood) {
+TEST(StrangerWatch, EndsDuringAFlood) {
     for (int round = 0; round < 20; ++round) {
         zmq::context_t context;
         zmq::socket_t socket(context, zmq::socket_type::router);

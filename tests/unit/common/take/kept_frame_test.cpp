@@ -17,7 +17,7 @@ KeptFrame kept_frame() {
     return kept;
 }
 
-TEST(KeptFrameTest, SurvivesTheWay) {
+TEST(KeptFrameTest, RoundTrips) {
     const KeptFrame sent = kept_frame();
     const KeptParts parts = encode(sent);
     EXPECT_EQ(parts.pulse, 1001u);
@@ -30,7 +30,7 @@ TEST(KeptFrameTest, SurvivesTheWay) {
     EXPECT_EQ(to_text(came.frame.record), to_text(sent.frame.record));
 }
 
-TEST(KeptFrameTest, RefusesWhatIsNotWhatItSays) {
+TEST(KeptFrameTest, RefusesFramesThatContradictTheirRecord) {
     const auto refuses = [](const auto& change) {
         KeptParts parts = encode(kept_frame());
         change(parts);

@@ -40,7 +40,7 @@ class TakeFileTest : public testing::Test {
     std::filesystem::path take_ = folder_.path() / "take.mkv";
 };
 
-TEST_F(TakeFileTest, GivesBackEveryFrameBitForBit) {
+TEST_F(TakeFileTest, RoundTripsEveryFrameBitForBit) {
     write_small_take(take_, two_rigs, first_pulse, first_pulse + 40, {first_pulse + 7});
     const TakeReader reader(take_);
     EXPECT_TRUE(reader.is_ended());
@@ -90,7 +90,7 @@ TEST_F(TakeFileTest, KeepsLosslessColourBitForBit) {
         same_pixels(then.colour, decoded(sent_frame("north", first_pulse, lossless)).colour));
 }
 
-TEST_F(TakeFileTest, IsReadByTheToolsThatEverybodyHas) {
+TEST_F(TakeFileTest, IsReadableByFfmpeg) {
     constexpr int frames = 12;
     write_small_take(take_, two_rigs, first_pulse, first_pulse + frames - 1);
     const auto streams =
@@ -130,7 +130,7 @@ TEST_F(TakeFileTest, IsReadByTheToolsThatEverybodyHas) {
     EXPECT_NE(text.find(fmt::format("\"pulse\":{}", first_pulse + 3)), std::string::npos) << text;
 }
 
-TEST_F(TakeFileTest, KeepsTheCameraOfEveryTick) {
+TEST_F(TakeFileTest, RoundTripsTheCameraOfEveryTick) {
     {
         TakeWriter writer(take_, small_facts({"north"}, first_pulse));
         CameraRecord camera;
@@ -163,7 +163,7 @@ TEST_F(TakeFileTest, ReplacesNoFile) {
     EXPECT_EQ(free_path(take_).filename(), "take-2.mkv");
 }
 
-TEST_F(TakeFileTest, KeepsWhatWasWrittenWhenItsProcessIsKilled) {
+TEST_F(TakeFileTest, SurvivesAKilledProcess) {
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) {
@@ -193,7 +193,7 @@ TEST_F(TakeFileTest, OpensFromItsFirstFrameOn) {
     run("ffprobe", {"-v", "error", take_.string()});
 }
 
-TEST_F(TakeFileTest, IsReadUpToWhereItIsCutOff) {
+TEST_F(TakeFileTest, ReadsATruncatedFile) {
     write_small_take(take_, two_rigs, first_pulse, first_pulse + 60);
     const std::vector<std::byte> whole = bytes_of_file(take_);
     const std::size_t frames = TakeReader(take_).frames(0).size();
@@ -214,7 +214,7 @@ TEST_F(TakeFileTest, IsReadUpToWhereItIsCutOff) {
     EXPECT_GE(most, frames - 13);
 }
 
-TEST_F(TakeFileTest, NamesEveryBitThatIsDamaged) {
+TEST_F(TakeFileTest, DetectsEveryDamagedBit) {
     write_small_take(take_, two_rigs, first_pulse, first_pulse + 30);
     const std::vector<std::byte> whole = bytes_of_file(take_);
     const TakeReader before(take_);
@@ -269,7 +269,8 @@ TEST_F(TakeFileTest, EndsReadableWhereTheDiskIsFull) {
         const SmallDisk disk(300'000);
         sentence = thrown_sentence([&] { write_small_take(take_, two_rigs, 100, 1000); });
     }
-    EXPECT_NE(sentence.find("what was written until then opens"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("what was written until then can be opened"), std::string::npos)
+        << sentence;
     const TakeReader reader(take_);
     EXPECT_TRUE(reader.damage().empty()) << "it ends with a whole cluster";
     EXPECT_GT(reader.frames(0).size(), 10u);
@@ -288,7 +289,7 @@ int fill_small_tmpfs(const std::filesystem::path& folder) {
     const std::filesystem::path take = folder / "take.mkv";
     const std::string sentence =
         thrown_sentence([&] { write_small_take(take, two_rigs, 100, 10'000); });
-    if (sentence.find("No space left on device; what was written until then opens") ==
+    if (sentence.find("No space left on device; what was written until then can be opened") ==
         std::string::npos)
         return 2;
     const TakeReader reader(take);
@@ -308,17 +309,17 @@ TEST_F(TakeFileTest, EndsReadableOnAFullTmpfs) {
     EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
-TEST_F(TakeFileTest, RefusesWhatIsNoTake) {
+TEST_F(TakeFileTest, RefusesFilesThatAreNotTakes) {
     const auto refused = [&](const std::string& words) {
         const std::string sentence = thrown_sentence([&] { TakeReader reader(take_); });
         EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
     };
     refused("cannot read");
     write_bytes(take_, {});
-    refused("no Matroska file");
+    refused("not a Matroska file");
     run("ffmpeg",
         {"-v", "error", "-y", "-f", "lavfi", "-i", "testsrc=d=1:s=64x48", take_.string()});
-    refused("no take.json");
+    refused("without take.json");
 }
 
 TEST_F(TakeFileTest, RefusesFramesThatDoNotFitItsTracks) {
@@ -327,7 +328,7 @@ TEST_F(TakeFileTest, RefusesFramesThatDoNotFitItsTracks) {
     larger.rig = "north";
     EXPECT_NE(thrown_sentence([&] {
                   storer.store(FrameEncoder(85).encode(larger));
-              }).find("80x60 and disparities of 80x60, and the take's tracks are for 62x46"),
+              }).find("80x60 and disparities of 80x60, but the take's tracks have 62x46"),
               std::string::npos);
 }
 
@@ -362,11 +363,11 @@ TEST_F(TakeFileTest, OpensAfterAnyKill) {
             EXPECT_NO_THROW(reader.load(0, frame));
         }
         for (const TakeDamage& damage : reader.damage())
-            EXPECT_NE(damage.words.find("are cut off"), std::string::npos) << damage.words;
+            EXPECT_NE(damage.words.find("are truncated"), std::string::npos) << damage.words;
     }
 }
 
-TEST_F(TakeFileTest, RefusesNumbersThatNoRecordHolds) {
+TEST_F(TakeFileTest, RefusesInvalidNumbersInRecords) {
     const std::string text = to_text(CameraRecord{});
     const std::string open = text.substr(0, text.rfind(",\"crc32\""));
     EXPECT_NO_THROW(camera_record_from(seal_record(open)));
@@ -388,7 +389,7 @@ TEST_F(TakeFileTest, RefusesNumbersThatNoRecordHolds) {
     }
 }
 
-TEST_F(TakeFileTest, ReadsATakeOfVersion1ForEver) {
+TEST_F(TakeFileTest, ReadsATakeOfVersion1) {
     const TakeReader reader(source_folder() / "tests" / "takes" / "version_1.mkv");
     EXPECT_TRUE(reader.is_ended());
     EXPECT_TRUE(reader.damage().empty());

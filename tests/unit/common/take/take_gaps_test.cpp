@@ -25,33 +25,33 @@ std::string whys_of(const std::vector<TakeReader::Frame>& frames) {
     return text;
 }
 
-TEST(TakeGapsTest, NobodyLackedIsNoGap) {
+TEST(TakeGapsTest, ContiguousPulsesHaveNoGap) {
     EXPECT_EQ(whys_of(frames_of({{5, 1}, {6, 1}, {7, 2}})), "");
     EXPECT_EQ(whys_of({}), "");
 }
 
-TEST(TakeGapsTest, EveryLossIsDealtOutOnceThoughItWasCountedAhead) {
+TEST(TakeGapsTest, AssignsLossesCountedAhead) {
     // The rig had missed 6 and 7, and 9, before it packed 5 and 8.
     EXPECT_EQ(whys_of(frames_of({{4, 0}, {5, 3}, {8, 3}, {10, 3}})),
               "6-7: 2 missed by the rig; 9-9: 1 missed by the rig; ");
 }
 
-TEST(TakeGapsTest, OneThatIsCountedLaterExplainsTheGapBefore) {
+TEST(TakeGapsTest, AssignsLossesCountedLater) {
     std::vector<TakeReader::Frame> frames = frames_of({{4, 0}, {6, 0}, {7, 0}, {9, 0}, {10, 0}});
     for (std::size_t i = 2; i < frames.size(); ++i) frames[i].link.send_dropped = 1;
     frames[4].link.send_dropped = 2;
-    EXPECT_EQ(whys_of(frames), "5-5: 1 pushed out on the way; 8-8: 1 pushed out on the way; ");
+    EXPECT_EQ(whys_of(frames), "5-5: 1 dropped at the rig; 8-8: 1 dropped at the rig; ");
 }
 
-TEST(TakeGapsTest, AGapHasAsManyReasonsAsThereAre) {
+TEST(TakeGapsTest, AGapCanHaveSeveralReasons) {
     std::vector<TakeReader::Frame> frames = frames_of({{4, 0}, {9, 1}});
     frames[1].rig.late = 2;
     frames[1].dropped = 1;
     EXPECT_EQ(whys_of(frames),
-              "5-8: 1 missed by the rig, 2 late at the rig, 1 left out by the recording host; ");
+              "5-8: 1 missed by the rig, 2 late at the rig, 1 dropped by the recording host; ");
 }
 
-TEST(TakeGapsTest, WhatNobodyCountedHasNoReason) {
+TEST(TakeGapsTest, AnUncountedLossHasNoReason) {
     EXPECT_EQ(whys_of(frames_of({{4, 7}, {6, 7}})), "5-5: ; ");
     // Long after the gap the rig lost what the take has another frame of.
     std::vector<std::pair<std::uint64_t, std::uint64_t>> pulses{{4, 0}, {6, 0}};
@@ -60,10 +60,10 @@ TEST(TakeGapsTest, WhatNobodyCountedHasNoReason) {
     EXPECT_EQ(whys_of(frames_of(pulses)), "5-5: ; ");
 }
 
-TEST(TakeGapsTest, ARigThatWasStartedAnewCountsAnew) {
+TEST(TakeGapsTest, ExplainsARestartOfTheRig) {
     std::vector<TakeReader::Frame> frames = frames_of({{4, 3}, {9, 0}, {11, 1}});
     frames[1].session = frames[2].session = 1;
-    EXPECT_EQ(whys_of(frames), "5-8: the rig was started anew; 10-10: 1 missed by the rig; ");
+    EXPECT_EQ(whys_of(frames), "5-8: the rig was restarted; 10-10: 1 missed by the rig; ");
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ class TakeRecorderTest : public testing::Test {
     std::filesystem::path take_ = folder_.path() / "take.mkv";
 };
 
-TEST_F(TakeRecorderTest, WritesWhatWasOfferedWhileItRan) {
+TEST_F(TakeRecorderTest, WritesFramesOfferedDuringTheTake) {
     TakeRecorder recorder(settings());
     offer_both(recorder, 1000, 1004);
     recorder.begin(take_);
@@ -90,7 +90,7 @@ TEST_F(TakeRecorderTest, WritesWhatWasOfferedWhileItRan) {
     EXPECT_EQ(state.bytes, std::filesystem::file_size(take_));
 }
 
-TEST_F(TakeRecorderTest, BeginsSoLongBeforeItIsAskedFor) {
+TEST_F(TakeRecorderTest, IncludesThePreRoll) {
     TakeRecorder::Settings wanted = settings();
     wanted.pre_roll = 2s;
     TakeRecorder recorder(wanted);
@@ -117,7 +117,7 @@ TEST_F(TakeRecorderTest, BeginsSoLongBeforeItIsAskedFor) {
     EXPECT_EQ(recorder.state().gaps, 0u);
 }
 
-TEST_F(TakeRecorderTest, CountsWhatItCannotFollowAndTheTakeSaysSo) {
+TEST_F(TakeRecorderTest, CountsAndRecordsDroppedFrames) {
     TakeRecorder::Settings wanted = settings();
     std::promise<void> looked_at, release;
     wanted.queue_bytes = 40'000;
@@ -146,7 +146,7 @@ TEST_F(TakeRecorderTest, CountsWhatItCannotFollowAndTheTakeSaysSo) {
     EXPECT_GT(state.gaps, 0u);
 }
 
-TEST_F(TakeRecorderTest, WhatItSaysIsRecordedIsInTheFileWithoutAnEnd) {
+TEST_F(TakeRecorderTest, ReportedFramesAreInTheUnfinishedFile) {
     TakeRecorder recorder(settings());
     recorder.begin(take_);
     for (std::uint64_t pulse = 1000; pulse < 1010; ++pulse) {
@@ -157,7 +157,7 @@ TEST_F(TakeRecorderTest, WhatItSaysIsRecordedIsInTheFileWithoutAnEnd) {
     }
 }
 
-TEST_F(TakeRecorderTest, ARecorderThatWasHeldUpHandsOverAllThatWaitedAndSaysHowLong) {
+TEST_F(TakeRecorderTest, ReportsTheLongestUnwrittenTime) {
     std::promise<void> release;
     TakeRecorder recorder(with_a_disk_held_by(release));
     recorder.begin(take_);
@@ -175,7 +175,7 @@ TEST_F(TakeRecorderTest, ARecorderThatWasHeldUpHandsOverAllThatWaitedAndSaysHowL
     EXPECT_GE(recorder.state().longest_unwritten_ms, 0.5 * held_ms);
 }
 
-TEST_F(TakeRecorderTest, RefusesADiskThatCannotKeepUpAndNamesTheNumbers) {
+TEST_F(TakeRecorderTest, RefusesASlowDiskAndNamesTheRates) {
     TakeRecorder::Settings wanted = settings();
     wanted.disk_mb_s = [](const auto&) { return 0.1; };
     TakeRecorder recorder(wanted);
@@ -184,13 +184,12 @@ TEST_F(TakeRecorderTest, RefusesADiskThatCannotKeepUpAndNamesTheNumbers) {
     recorder.finish();
     const TakeState state = recorder.state();
     EXPECT_EQ(state.phase, TakePhase::failed);
-    EXPECT_NE(state.failure.find("takes 0.1 MB a second, and these rigs' frames need"),
-              std::string::npos)
+    EXPECT_NE(state.failure.find("writes 0.1 MB/s, and these rigs' frames need"), std::string::npos)
         << state.failure;
     EXPECT_FALSE(std::filesystem::exists(take_));
 }
 
-TEST_F(TakeRecorderTest, WaitsForRigsOnlySoLongAndTakesThemWhenTheyCome) {
+TEST_F(TakeRecorderTest, LimitsTheWaitForRigsAndAddsThemLater) {
     TakeRecorder::Settings wanted = settings();
     wanted.rig_wait = 20ms;
     TakeRecorder recorder(wanted);
@@ -205,14 +204,14 @@ TEST_F(TakeRecorderTest, WaitsForRigsOnlySoLongAndTakesThemWhenTheyCome) {
     EXPECT_EQ(frames_of(1), 1u);
 }
 
-TEST_F(TakeRecorderTest, RefusesWhatIsNoPlaceForATake) {
+TEST_F(TakeRecorderTest, RefusesInvalidPaths) {
     TakeRecorder recorder(settings());
     write_small_take(take_, {"north"}, 1, 2);
     EXPECT_NE(thrown_sentence([&] { recorder.begin(take_); }).find("never replaces a file"),
               std::string::npos);
     EXPECT_NE(thrown_sentence([&] {
                   recorder.begin(folder_.path() / "take.mp4");
-              }).find("whose name ends in .mkv"),
+              }).find("has to end in .mkv"),
               std::string::npos);
     EXPECT_NE(thrown_sentence([&] {
                   recorder.begin(folder_.path() / "no" / "take.mkv");
@@ -221,7 +220,7 @@ TEST_F(TakeRecorderTest, RefusesWhatIsNoPlaceForATake) {
     EXPECT_FALSE(recorder.is_running());
 }
 
-TEST_F(TakeRecorderTest, TakesSeveralOneAfterTheOther) {
+TEST_F(TakeRecorderTest, RecordsSeveralTakesInSequence) {
     TakeRecorder recorder(settings());
     for (const int take : {1, 2}) {
         recorder.begin(free_path(take_));
@@ -233,7 +232,7 @@ TEST_F(TakeRecorderTest, TakesSeveralOneAfterTheOther) {
     EXPECT_EQ(recorder.state().takes, 2u);
 }
 
-TEST_F(TakeRecorderTest, SaysThatTheOneBeforeIsStillBeingWritten) {
+TEST_F(TakeRecorderTest, RefusesANewTakeWhileTheLastIsBeingWritten) {
     std::promise<void> release;
     TakeRecorder recorder(with_a_disk_held_by(release));
     recorder.begin(take_);
@@ -250,7 +249,7 @@ TEST_F(TakeRecorderTest, SaysThatTheOneBeforeIsStillBeingWritten) {
     EXPECT_TRUE(recorder.is_running());
 }
 
-TEST_F(TakeRecorderTest, SaysWhenNothingCame) {
+TEST_F(TakeRecorderTest, ReportsATakeWithoutFrames) {
     TakeRecorder recorder(settings());
     recorder.begin(take_);
     recorder.finish();

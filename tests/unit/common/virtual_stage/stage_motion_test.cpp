@@ -39,7 +39,7 @@ class StageMotion : public testing::Test {
         return stage_.render(camera_, time, {.pictures = StagePictures::depth}).depth_m;
     }
 
-    /// The set by itself: every pixel's farthest depth in a loop, in which performers give way.
+    /// The depth without performers: every pixel's farthest depth in a loop.
     DepthImage set_m() {
         DepthImage farthest_m;
         for (int i = 0; i < 16; ++i) {
@@ -55,12 +55,12 @@ class StageMotion : public testing::Test {
     StageCamera camera_ = small_camera({0.8, 1.8, 4.4});
 };
 
-/// Where performers stand before the set: 255.
+/// 255 where performers stand in front of the scenery.
 cv::Mat1b performers(const DepthImage& depth_m, const DepthImage& set_m) {
     return depth_m < set_m - 0.03;
 }
 
-TEST_F(StageMotion, PerformersMoveAtEveryDateAndTheSetStandsStill) {
+TEST_F(StageMotion, PerformersMoveAndSceneryStandsStillAtAnyDate) {
     const DepthImage set_m = this->set_m();
     // Performers' shadows do not reach the walls.
     const cv::Mat1b walls = set_m > 7.5;
@@ -86,7 +86,7 @@ TEST_F(StageMotion, PerformersMoveAtEveryDateAndTheSetStandsStill) {
             covered += one;
             cv::Mat1b near_them;
             cv::dilate(here, near_them, cv::Mat1b(5, 5, 255));
-            // The set is where it was, to the last bit.
+            // The scenery is unchanged, to the last bit.
             const cv::Mat moved = (now.depth_m != set_m) & ~near_them;
             EXPECT_EQ(cv::countNonZero(moved), 0);
             const cv::Mat still = walls & ~near_them & ~of_first;
@@ -102,11 +102,11 @@ TEST_F(StageMotion, PerformersMoveAtEveryDateAndTheSetStandsStill) {
         }
         double most = 0;
         cv::minMaxLoc(covered, nullptr, &most);
-        EXPECT_LT(most, 0.8 * instants) << "all of the set comes to light";
+        EXPECT_LT(most, 0.8 * instants) << "all of the scenery is visible at some time";
     }
 }
 
-/// The middle, on the floor, of what the camera sees nearer than the set.
+/// The middle, on the floor, of the points that the camera sees in front of the scenery.
 std::optional<Vector3d> middle_of_performers(const StageCamera& camera, const DepthImage& depth_m,
                                              const DepthImage& set_m) {
     const cv::Mat1b theirs = performers(depth_m, set_m);
@@ -124,7 +124,7 @@ std::optional<Vector3d> middle_of_performers(const StageCamera& camera, const De
     return sum / pixels;
 }
 
-TEST_F(StageMotion, WhatIsSeenOfAPerformerWalksAsFastAsItsWaySays) {
+TEST_F(StageMotion, VisiblePerformersWalkAtTheirSpeed) {
     std::uint64_t seed = 1;
     while (make_random_background(seed).performers.size() != 1) ++seed;
     const PerformerStyle alone = make_random_background(seed).performers.front();
@@ -172,7 +172,7 @@ double agreeing(const StageCamera& a, const DepthImage& depth_a, const cv::Mat1b
     return static_cast<double>(agreeing) / seen;
 }
 
-TEST_F(StageMotion, RigsSeeOneInstantWhateverTheyFilmedBefore) {
+TEST_F(StageMotion, RigsSeeTheSameInstantWhateverTheyFilmedBefore) {
     const DepthImage set_m = this->set_m();
     const StageCamera other = small_camera({0.4, 1.8, 4.45});
     for (const nanoseconds date : {a_day, years_later}) {

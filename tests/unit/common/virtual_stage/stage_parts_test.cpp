@@ -20,7 +20,7 @@ namespace {
 using Eigen::Vector3f;
 using namespace std::chrono_literals;
 
-TEST(StageProjection, PutsPixelCentresWhereKSays) {
+TEST(StageProjection, PutsPixelCentresAccordingToK) {
     StageCamera camera;
     camera.width_px = 64;
     camera.height_px = 48;
@@ -41,7 +41,7 @@ TEST(StageProjection, PutsPixelCentresWhereKSays) {
     }
 }
 
-TEST(StageProjection, KeepsWhatTheCameraMaySeeAndNothingBehindIt) {
+TEST(StageProjection, CullsSpheresOutsideTheFrustum) {
     StageCamera camera;
     camera.width_px = camera.height_px = 100;
     camera.K << 50, 0, 49.5, 0, 50, 49.5, 0, 0, 1;  // 90 degrees
@@ -123,7 +123,7 @@ TEST(StageMesh, ClosedShapesFaceOutwardAndEncloseTheirVolume) {
 
 TEST(StageMesh, ChunksHoldTheirTrianglesAndSpheres) {
     for (const std::uint64_t seed : {0u, 1u, 2u}) {
-        const StageScene scene = make_frame_set(seed);
+        const StageScene scene = make_scene(seed);
         const auto& mesh = scene.mesh;
         std::uint32_t next = 0;
         for (const StageChunk& chunk : mesh.chunks()) {
@@ -194,7 +194,7 @@ TEST(Performer, StandsOnTheFloorWithinTheStageAndMovesSmoothlyAtAnyDate) {
 
 TEST(Performer, WalksAtThePaceOfPeopleAndMovesInStepsOfAMillisecond) {
     for (const std::uint64_t seed : {0u, 1u, 2u, 3u, 4u, 5u})
-        for (const PerformerStyle& style : make_frame_set(seed).performers) {
+        for (const PerformerStyle& style : make_scene(seed).performers) {
             EXPECT_GE(style.speed_m_per_s(), 0.5);
             EXPECT_LE(style.speed_m_per_s(), 1.5);
             for (const std::chrono::nanoseconds date : dates())
@@ -246,7 +246,7 @@ class Cells {
 /// Points all over the surfaces of what stands still, `apart_m` from each other.
 template <class Visit>
 void for_each_background_point(const StageMeshBuilder& mesh, float farthest_m, float apart_m,
-                           Visit visit) {
+                               Visit visit) {
     for_each_triangle(mesh, [&](const auto& a, const auto& b, const auto& c) {
         if (a.normal_and_bone[3] != 0) return;
         const Vector3f o = position(a), u = position(b) - o, v = position(c) - o;
@@ -264,13 +264,13 @@ void for_each_background_point(const StageMeshBuilder& mesh, float farthest_m, f
     });
 }
 
-class EveryFrameSet : public testing::TestWithParam<std::uint64_t> {
+class EveryScene : public testing::TestWithParam<std::uint64_t> {
   protected:
-    StageScene scene_ = make_frame_set(GetParam());
+    StageScene scene_ = make_scene(GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Sets, EveryFrameSet, testing::Range<std::uint64_t>(0, 13));
+INSTANTIATE_TEST_SUITE_P(Sets, EveryScene, testing::Range<std::uint64_t>(0, 13));
 
-TEST_P(EveryFrameSet, PerformersNeverTouchTheSetNorEachOther) {
+TEST_P(EveryScene, PerformersNeverTouchSceneryOrEachOther) {
     constexpr int the_set = -1, nobody = 0;
     Cells cells;
     for_each_background_point(scene_.mesh, 2.6f, 0.03f, [&](const Vector3f& p) {
@@ -281,7 +281,7 @@ TEST_P(EveryFrameSet, PerformersNeverTouchTheSetNorEachOther) {
     for (const StageVertex& v : scene_.mesh.vertices())
         of_bone[static_cast<std::size_t>(v.normal_and_bone[3])].push_back(position(v));
     constexpr int instants = 96;
-    std::array<int, 2> touched = {};  // the set, each other
+    std::array<int, 2> touched = {};  // the scenery, each other
     for (int i = 0; i < instants; ++i) {
         std::vector<std::size_t> taken;
         for (std::size_t performer = 0; performer < scene_.performers.size(); ++performer) {
@@ -301,11 +301,11 @@ TEST_P(EveryFrameSet, PerformersNeverTouchTheSetNorEachOther) {
         EXPECT_GT(taken.size(), 500u) << "they are among the cells";
         for (const std::size_t cell : taken) cells[cell] = nobody;
     }
-    EXPECT_EQ(touched[0], 0) << "points that were within the set";
+    EXPECT_EQ(touched[0], 0) << "points inside the scenery";
     EXPECT_EQ(touched[1], 0) << "points that were within another performer";
 }
 
-TEST_P(EveryFrameSet, PerformersStayWithinTheirReach) {
+TEST_P(EveryScene, PerformersStayWithinTheirReach) {
     std::vector<std::vector<Vector3f>> of_bone(1 + scene_.performers.size() * bones_of_performer);
     for (const StageVertex& v : scene_.mesh.vertices())
         of_bone[static_cast<std::size_t>(v.normal_and_bone[3])].push_back(position(v));
@@ -326,7 +326,7 @@ TEST_P(EveryFrameSet, PerformersStayWithinTheirReach) {
     }
 }
 
-TEST_P(EveryFrameSet, NothingStandsRightBeforeTheRigs) {
+TEST_P(EveryScene, NothingStandsRightInFrontOfTheRigs) {
     std::vector<Vector3f> rigs;
     for (const float azimuth : {-1.05f, -0.7f, -0.35f, 0.0f, 0.35f, 0.7f, 1.05f})
         for (const float elevation : {0.09f, 0.17f, 0.35f})

@@ -39,7 +39,7 @@ class VirtualRigTest : public testing::Test {
     ShaderLibrary library_;
 };
 
-TEST(VirtualRigPlacementTest, StandsWhereItIsToldAndLooksAtThePivot) {
+TEST(VirtualRigPlacementTest, IsPlacedAndLooksAtThePivot) {
     const VirtualRigPlacement p = small_placement();
     const StereoCalibration c = ideal_virtual_rig(p);
     c.validate();
@@ -62,7 +62,7 @@ TEST(VirtualRigPlacementTest, StandsWhereItIsToldAndLooksAtThePivot) {
     EXPECT_NEAR(2 * std::atan(0.5 * p.width_px / c.rectified.f_px), p.field_of_view_rad, 1e-12);
 }
 
-TEST(VirtualRigPlacementTest, NamesEveryPlacementDifferently) {
+TEST(VirtualRigPlacementTest, HasADistinctIdPerPlacement) {
     VirtualRigPlacement p = small_placement();
     const std::string id = ideal_virtual_rig(p).id;
     EXPECT_EQ(ideal_virtual_rig(p).id, id);
@@ -70,7 +70,7 @@ TEST(VirtualRigPlacementTest, NamesEveryPlacementDifferently) {
     EXPECT_NE(ideal_virtual_rig(p).id, id);
 }
 
-TEST(VirtualRigPlacementTest, RefusesImpossiblePlaces) {
+TEST(VirtualRigPlacementTest, RefusesInvalidPlacements) {
     const auto refuses = [](auto change) {
         VirtualRigPlacement p = small_placement();
         change(p);
@@ -84,7 +84,7 @@ TEST(VirtualRigPlacementTest, RefusesImpossiblePlaces) {
     refuses([](auto& p) { p.distance_m = NAN; });
 }
 
-TEST_F(VirtualRigTest, ExactDisparityTakesTheLeftPictureToTheRight) {
+TEST_F(VirtualRigTest, ExactDisparityMapsTheLeftImageToTheRight) {
     VirtualStage stage(library_);
     const StereoCalibration c = ideal_virtual_rig(small_placement());
     const VirtualStereoFrame frame = render_virtual_rig(stage, c, 1200ms, 0, {});
@@ -162,7 +162,7 @@ class VirtualLensTest
     : public VirtualRigTest,
       public testing::WithParamInterface<std::tuple<LensModel, std::vector<double>>> {};
 
-TEST_P(VirtualLensTest, RectifyingWhatTheSensorsSeeGivesTheIdealPictures) {
+TEST_P(VirtualLensTest, RectifiedSensorImagesEqualIdealOnes) {
     const StereoCalibration c =
         flawed_rig(std::get<LensModel>(GetParam()), std::get<std::vector<double>>(GetParam()));
     VirtualStage stage(library_);
@@ -206,7 +206,7 @@ INSTANTIATE_TEST_SUITE_P(
                    std::vector<double>{0.1, -0.05, 0.0005, 0.001, 0.01, 0.3, -0.02, 0.01}),
         std::tuple(LensModel::fisheye, std::vector<double>{0.05, -0.01, 0.004, -0.001})));
 
-TEST(VirtualLens, RefusesALensThatSeesBehindAnyPinholePicture) {
+TEST(VirtualLens, RefusesALensBeyondAnyPinholeImage) {
     StereoCalibration c = ideal_virtual_rig(small_placement());
     c.left.lens = c.right.lens = LensModel::fisheye;
     c.left.fx_px = c.left.fy_px = c.right.fx_px = c.right.fy_px = 60;
@@ -265,7 +265,7 @@ TEST(SensorNoiseTest, RepeatsForTheSameFrameAndForNoOther) {
     EXPECT_LT(std::abs(correlation(shifted)), 0.05) << "the next pixel";
 }
 
-TEST(SensorNoiseTest, KnowsItsLimits) {
+TEST(SensorNoiseTest, ChecksItsLimits) {
     ColourImage picture(20, 30, cv::Vec4b(2, 253, 128, 255));
     const ColourImage clean = picture.clone();
     add_sensor_noise(picture, {0, 1}, 0, 0);

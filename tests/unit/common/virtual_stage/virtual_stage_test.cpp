@@ -92,15 +92,15 @@ Agreement agreement(const StageCamera& a, const DepthImage& depth_a, const Stage
 }
 
 TEST_F(VirtualStageTest, TwoViewsAgreeOnEveryPointBothSee) {
-    for (const std::uint64_t set : {0, 1, 2}) {
-        VirtualStage stage(library_, set);
+    for (const std::uint64_t scene : {0, 1, 2}) {
+        VirtualStage stage(library_, scene);
         const StageCamera a = camera_at({1.2, 1.7, 4.3}, {0, 1, 0}, {160, 120}, 150);
         const StageCamera b = camera_at({-0.4, 2.0, 4.5}, {0.1, 0.9, 0}, {161, 119}, 165);
         const Agreement found =
             agreement(a, stage.render(a, 2500ms).depth_m, b, stage.render(b, 2500ms).depth_m);
-        EXPECT_GT(found.seen, 0.3) << "set " << set;
-        EXPECT_GT(found.agreeing + found.before, 0.99) << "set " << set;
-        EXPECT_LT(found.before, 0.04) << "set " << set;
+        EXPECT_GT(found.seen, 0.3) << "scene " << scene;
+        EXPECT_GT(found.agreeing + found.before, 0.99) << "scene " << scene;
+        EXPECT_LT(found.before, 0.04) << "scene " << scene;
     }
 }
 
@@ -143,9 +143,9 @@ TEST_F(VirtualStageTest, TheSameTimeGivesTheSamePixels) {
     EXPECT_GT(cv::countNonZero(moved > 0.05f), 100) << "the performers move";
 }
 
-TEST_F(VirtualStageTest, ACameraThatStandsStillSeesTheSamePictures) {
-    for (const std::uint64_t set : {0, 3}) {
-        VirtualStage stage(library_, set);
+TEST_F(VirtualStageTest, AStationaryCameraSeesTheSameImages) {
+    for (const std::uint64_t scene : {0, 3}) {
+        VirtualStage stage(library_, scene);
         // Six, of which four are kept; the last stands among the performers.
         const Vector3d eyes[] = {{-2.2, 1.8, 3.8}, {0, 1.8, 4.4}, {2.2, 1.2, 3.8},
                                  {-3, 3.2, 2},     {0, 1, -4.2},  {0.3, 1.2, 1.9}};
@@ -157,13 +157,13 @@ TEST_F(VirtualStageTest, ACameraThatStandsStillSeesTheSamePictures) {
             const StageOptions still{.anti_aliased = i % 3 != 0, .stands_still = true};
             StageOptions free = still;
             free.stands_still = false;
-            // A second instant of it is drawn over a set that is kept.
+            // A second instant of it is drawn over the cached scenery.
             (void)stage.render(camera, time + 700ms, still);
             const StageRendering kept = stage.render(camera, time, still),
                                  drawn = stage.render(camera, time, free);
             EXPECT_EQ(cv::norm(kept.depth_m, drawn.depth_m, cv::NORM_INF), 0);
             EXPECT_EQ(cv::norm(kept.colour, drawn.colour, cv::NORM_INF), 0)
-                << "set " << set << ", picture " << i;
+                << "scene " << scene << ", picture " << i;
             const StageRendering later = stage.render(camera, time + 700ms, free);
             for (int y = 0; y < 91; ++y)
                 for (int x = 0; x < 121; ++x)
@@ -174,7 +174,7 @@ TEST_F(VirtualStageTest, ACameraThatStandsStillSeesTheSamePictures) {
     }
 }
 
-TEST_F(VirtualStageTest, EverySeedIsAnotherSet) {
+TEST_F(VirtualStageTest, EverySeedIsAnotherScene) {
     const StageCamera camera = camera_at({1, 1.6, 4}, {0, 1, 0}, {61, 47}, 50);
     const StageRendering a = VirtualStage(library_, 11).render(camera, 1s);
     const StageRendering same = VirtualStage(library_, 11).render(camera, 1s);
@@ -202,7 +202,7 @@ TEST_F(VirtualStageTest, AntiAliasingKeepsTheMeanAndSmoothsEdges) {
     EXPECT_LT(roughness(smooth), 0.97 * roughness(rough));
 }
 
-TEST_F(VirtualStageTest, DrawsOnlyWhatIsAskedFor) {
+TEST_F(VirtualStageTest, DrawsOnlyTheRequestedImages) {
     VirtualStage stage(library_);
     const StageCamera camera = camera_at({1, 1.6, 4}, {0, 1, 0}, {31, 23}, 30);
     const StageRendering depth = stage.render(camera, 1s, {.pictures = StagePictures::depth});
@@ -213,7 +213,7 @@ TEST_F(VirtualStageTest, DrawsOnlyWhatIsAskedFor) {
     EXPECT_EQ(colour.colour.size(), cv::Size(31, 23));
 }
 
-TEST_F(VirtualStageTest, RefusesCamerasThatCannotBe) {
+TEST_F(VirtualStageTest, RefusesInvalidCameras) {
     VirtualStage stage(library_);
     const StageCamera good = camera_at({1, 1.6, 4}, {0, 1, 0}, {31, 23}, 30);
     StageCamera bad = good;

@@ -41,7 +41,7 @@ class CurveKeysTest : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(CurveKeysTest, APairComesBackFromItsFileWhichOnlyItsOwnerCanRead) {
+TEST_F(CurveKeysTest, RoundTripsAFileThatOnlyItsOwnerCanRead) {
     const std::filesystem::path path = folder_.path() / "rig.key";
     const CurveKeys made = generate_curve_keys();
     write_key_file(path, made);
@@ -85,7 +85,7 @@ TEST_F(CurveKeysTest, BadKeyFilesAreRefusedWithTheMend) {
     EXPECT_THAT(refusal_of_key_file(folder_.path()), HasSubstr("folder"));
 }
 
-TEST_F(CurveKeysTest, ItsGroupMayReadAKeyFileAndNobodyElse) {
+TEST_F(CurveKeysTest, OnlyItsGroupMayAlsoReadAKeyFile) {
     const CurveKeys keys = generate_curve_keys();
     const std::string good = key_file_text(keys.public_key, keys.secret_key);
     EXPECT_EQ(refusal_of_key_file(write("owner", good, 0600)), "");
@@ -96,7 +96,7 @@ TEST_F(CurveKeysTest, ItsGroupMayReadAKeyFileAndNobodyElse) {
     EXPECT_THAT(refusal_of_key_file(write("others_only", good, 0604)), HasSubstr("chmod o= "));
 }
 
-TEST_F(CurveKeysTest, AKeyFileOfAStrangerIsRefused) {
+TEST_F(CurveKeysTest, RefusesAKeyFileOfAnotherUser) {
     if (::geteuid() != 0) GTEST_SKIP() << "SKIPPED: only root gives files away";
     const CurveKeys keys = generate_curve_keys();
     const std::filesystem::path path =
@@ -109,7 +109,7 @@ TEST_F(CurveKeysTest, AKeyFileOfAStrangerIsRefused) {
     EXPECT_EQ(refusal_of_key_file(path), "");
 }
 
-TEST(KeyFileFault, AsksForRootOrTheReaderAndTheServicesGroup) {
+TEST(KeyFileFault, AcceptsRootTheReaderAndTheServicesGroup) {
     constexpr uid_t service = 990, somebody = 1000;
     constexpr gid_t its_group = 991, users = 100;
     const KeyFileReader reader{.users = {0, service}, .groups = {its_group}};
@@ -145,7 +145,7 @@ TEST_F(CurveKeysTest, TheListOfHostsTakesNamesCommentsAndEmptyLines) {
                                                      testing::Pair(a, "gallery, main host")));
 }
 
-TEST_F(CurveKeysTest, ALineThatIsNoKeyIsNamed) {
+TEST_F(CurveKeysTest, NamesAnInvalidLine) {
     const std::filesystem::path list = write("hosts", "# fine\nkey-of-the-gallery\n");
     EXPECT_THAT(thrown_sentence([&] { load_authorized_hosts(list); }), HasSubstr("line 2"));
 }

@@ -57,7 +57,7 @@ void expect_same_numbers(const RigFrame& got, const RigFrame& sent) {
     EXPECT_EQ(got.sync, sent.sync);
 }
 
-TEST(FrameCodec, GivesBackEveryNumberAndPixelOfALosslessFrame) {
+TEST(FrameCodec, RoundTripsALosslessFrame) {
     RigFrame sent = make_frame(max_trigger_index, 311, 239);
     FrameEncoder encoder(lossless);
     const RigFrame got = decode(encoder.encode(sent));
@@ -75,7 +75,7 @@ TEST(FrameCodec, JpegColourLeavesTheRestExact) {
     EXPECT_TRUE(same_pixels(got.disparity, sent.disparity));
 }
 
-TEST(FrameCodec, ColourThatWasPackedAheadTravelsAsIfItWereNot) {
+TEST(FrameCodec, ColourPackedEarlyGivesTheSameFrame) {
     for (const int quality : {lossless, 85}) {
         RigFrame at_once = make_frame(3), ahead = make_frame(3);
         ColourPacker packer(quality);
@@ -90,7 +90,7 @@ TEST(FrameCodec, ColourThatWasPackedAheadTravelsAsIfItWereNot) {
     }
 }
 
-TEST(FrameCodec, ARightPictureTravelsBehindTheLeftOnesJpeg) {
+TEST(FrameCodec, ARightImageFollowsTheLeftOnesJpeg) {
     for (const bool is_ahead : {false, true}) {
         RigFrame sent = make_frame(3);
         sent.right = make_frame(4).colour;
@@ -191,7 +191,7 @@ TEST(FrameCodec, OneDecoderTakesFramesOfChangingSizeAndSurvivesBadOnes) {
     }
 }
 
-TEST(FrameCodec, RefusesToPackWhatNoHostWouldTake) {
+TEST(FrameCodec, RefusesToPackInvalidFrames) {
     FrameEncoder encoder(85);
     const auto refused = [&](const std::function<void(RigFrame&)>& spoil) {
         RigFrame frame = make_frame(3);
@@ -235,7 +235,7 @@ TEST(FrameCodec, CarriesARawPairBitExactWhateverTheColourQuality) {
     }
 }
 
-TEST(FrameCodec, RefusesToPackARawPairThatIsNone) {
+TEST(FrameCodec, RefusesToPackAnInvalidRawPair) {
     RigFrame one_sided = make_raw_pair(3);
     one_sided.right = ColourImage();
     EXPECT_THAT(thrown_sentence([&] { FrameEncoder(lossless).encode(one_sided); }),

@@ -29,7 +29,7 @@ std::string refusal_of(Decode decode, const std::vector<std::byte>& bytes) {
     return thrown_sentence([&] { decode(bytes); });
 }
 
-TEST(LinkMessage, HostMessageComesBackWhole) {
+TEST(LinkMessage, HostMessageRoundTrips) {
     HostMessage sent{11, 12, 13, 14, false, 15, 16, true};
     EXPECT_EQ(decode_host_message(encode(sent)), sent);
     sent.fetch = {21, 22, 23, 24};
@@ -38,7 +38,7 @@ TEST(LinkMessage, HostMessageComesBackWhole) {
 }
 
 /// Protobuf itself writes a line for each name that is no UTF-8, however many a peer sends.
-TEST(LinkMessage, NamesThatAreNoTextAreRefusedAndNothingIsWrittenToTheLog) {
+TEST(LinkMessage, RefusesInvalidUtf8WithoutALogLine) {
     RigMessage sent;
     sent.rig = "rig-a";
     sent.link = 2;
@@ -54,7 +54,7 @@ TEST(LinkMessage, NamesThatAreNoTextAreRefusedAndNothingIsWrittenToTheLog) {
     EXPECT_NE(refusal, "");
 }
 
-TEST(LinkMessage, RigMessageComesBackWhole) {
+TEST(LinkMessage, RigMessageRoundTrips) {
     RigMessage sent;
     sent.rig = "rig-a";
     sent.session = 1;
@@ -121,10 +121,10 @@ TEST(LinkMessage, HostileHostMessagesAreRefused) {
         });
     };
     EXPECT_EQ(fetch(1, 5, 6), "");
-    EXPECT_THAT(fetch(0, 5, 6), HasSubstr("without id"));
+    EXPECT_THAT(fetch(0, 5, 6), HasSubstr("without an id"));
     EXPECT_THAT(fetch(1, 6, 6), HasSubstr("pulses from 6 to before 6"));
     EXPECT_THAT(fetch(1, 7, 6), HasSubstr("pulses from 7"));
-    EXPECT_THAT(fetch(1, 5, max_trigger_index + 1), HasSubstr("none up to"));
+    EXPECT_THAT(fetch(1, 5, max_trigger_index + 1), HasSubstr("not a range up to"));
     EXPECT_THAT(refusal_of(decode_host_message, std::vector<std::byte>(max_header_bytes + 1)),
                 HasSubstr("beyond the limit"));
     EXPECT_THAT(refusal_of(decode_host_message, {std::byte{0x08}}), HasSubstr("truncated"));
@@ -148,7 +148,7 @@ TEST(LinkMessage, HostileRigMessagesAreRefused) {
     EXPECT_THAT(refusal([](auto& m) { m.set_refusal("red\x1b[31m"); }),
                 HasSubstr("control characters"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_captured_hz(NAN); }),
-                HasSubstr("no number"));
+                HasSubstr("not finite"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_sync()->set_rate_hz(-1); }), HasSubstr("rate"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_calibration_id("a b"); }),
                 HasSubstr("calibration name"));

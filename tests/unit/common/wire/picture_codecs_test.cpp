@@ -85,11 +85,11 @@ TEST(PictureCodecs, CoarserChromaIsSmallerAndLeavesBrightnessAlone) {
     }
 }
 
-TEST(PictureCodecs, ChromaIsKnownByNameAndNoOtherIsTaken) {
+TEST(PictureCodecs, ParsesChromaByName) {
     for (const Chroma chroma : {Chroma::full, Chroma::half, Chroma::quarter})
         EXPECT_EQ(parse_chroma(name_of(chroma)), chroma);
     EXPECT_EQ(thrown_sentence([] { parse_chroma("4:1:1"); }),
-              "chroma '4:1:1' is none of 4:4:4, 4:2:2 and 4:2:0");
+              "chroma '4:1:1' is not one of 4:4:4, 4:2:2 and 4:2:0");
 }
 
 TEST(PictureCodecs, SmoothDisparityShrinksManyTimes) {
@@ -146,7 +146,7 @@ TEST(PictureCodecs, PicturesOfAnotherSizeAreRefused) {
                  Error);
 }
 
-TEST(PictureCodecs, AClaimOfAnotherContentSizeIsRefusedBeforeMemoryIsTaken) {
+TEST(PictureCodecs, RefusesAWrongContentSizeBeforeAllocating) {
     const std::vector<std::byte> small(100);
     const auto payload = PayloadCompressor().compress(small);
     const std::string sentence =

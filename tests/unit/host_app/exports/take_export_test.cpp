@@ -14,11 +14,8 @@
 #include "common/image/image_file.h"
 #include "host_app/camera_paths/camera_path_file.h"
 #include "host_app/exports/camera_files.h"
-#include "host_app/exports/exr_files.h"
 #include "host_app/exports/moment.h"
-#include "host_app/exports/moment_folders.h"
-#include "host_app/exports/mpeg_views.h"
-#include "host_app/exports/point_files.h"
+#include "host_app/exports/moment_files.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/view_set.h"
 #include "tests/support/child_program.h"
@@ -65,7 +62,7 @@ Pose turned(double pan_rad, double tilt_rad, double roll_rad) {
     return pose;
 }
 
-TEST(CameraFilesTest, SayPanTiltAndRoll) {
+TEST(CameraFilesTest, ContainPanTiltAndRoll) {
     for (const auto& [pan, tilt, roll] :
          {std::tuple(0.0, 0.0, 0.0), {30.0, 0.0, 0.0}, {-120.0, 20.0, 0.0}, {15.0, -40.0, 5.0}}) {
         const PanTiltRoll turn = pan_tilt_roll_of(turned(pan * rad, tilt * rad, roll * rad));
@@ -114,7 +111,7 @@ TEST_F(TakeExportTest, WritesTheFlight) {
     EXPECT_EQ(export_camera(take_, {0, ~std::uint64_t{0}, 4}, path("few")).written, 4u);
 }
 
-TEST_F(TakeExportTest, PutsEveryPixelWithDepthWhereItIs) {
+TEST_F(TakeExportTest, PlacesEveryPixelWithDepth) {
     Moment moment = first_moment();
     ASSERT_EQ(moment.views.size(), 2u);
     moment.views.pop_back();
@@ -155,7 +152,7 @@ TEST_F(TakeExportTest, PutsEveryPixelWithDepthWhereItIs) {
     EXPECT_NE(info.out.find("| triangle]"), std::string::npos) << info.out;
 }
 
-TEST_F(TakeExportTest, WritesGltfThatOthersOpen) {
+TEST_F(TakeExportTest, WritesValidGltf) {
     const Moment moment = first_moment();
     write_glb(moment, path("one.glb"));
     const std::string glb = text("one.glb");
@@ -183,7 +180,7 @@ TEST_F(TakeExportTest, WritesGltfThatOthersOpen) {
 }
 
 /// As a trainer reads it: by the text of the COLMAP model alone.
-TEST_F(TakeExportTest, WritesAColmapModelWhosePointsMeetItsPictures) {
+TEST_F(TakeExportTest, WritesAConsistentColmapModel) {
     const Moment moment = first_moment();
     write_training_folder(moment, path("model"));
     struct Camera {
@@ -248,7 +245,7 @@ TEST_F(TakeExportTest, WritesAColmapModelWhosePointsMeetItsPictures) {
     }
 }
 
-TEST_F(TakeExportTest, WritesAViewSetThatIsReadBack) {
+TEST_F(TakeExportTest, WritesAReadableViewSet) {
     const Moment moment = first_moment();
     write_view_set(moment, path("views"));
     const ViewSet set = load_view_set(path("views"));
@@ -272,7 +269,7 @@ std::vector<float> decoded(const std::filesystem::path& file, const std::string&
     return values;
 }
 
-TEST_F(TakeExportTest, WritesOpenExrThatOthersReadPixelForPixel) {
+TEST_F(TakeExportTest, WritesOpenExrThatFfmpegReadsPixelForPixel) {
     const Moment moment = first_moment();
     write_exr_folder(moment, path("exr"));
     const MomentView& view = moment.views[1];
@@ -324,7 +321,7 @@ TEST_F(TakeExportTest, WritesOpenExrThatOthersReadPixelForPixel) {
                   expected(static_cast<int>(i) / size.width, static_cast<int>(i) % size.width));
 }
 
-TEST_F(TakeExportTest, WritesAnMpegViewSetWhosePicturesDepthAndCamerasAreRight) {
+TEST_F(TakeExportTest, WritesACorrectMpegViewSet) {
     const Moment moment = first_moment();
     write_mpeg_views(moment, path("mpeg"));
     const std::string words = text("mpeg/sequence.json");
@@ -361,7 +358,7 @@ TEST_F(TakeExportTest, WritesAnMpegViewSetWhosePicturesDepthAndCamerasAreRight) 
     }
 }
 
-TEST_F(TakeExportTest, GoesOnWhereItWasBrokenOff) {
+TEST_F(TakeExportTest, ResumesAnInterruptedExport) {
     const ExportFormat& ply = find_export_format("ply");
     const TakePart part{first_pulse(), first_pulse() + 10, 3};
     EXPECT_EQ(export_moments(take_, ply, part, path("points")).written, 4u);
@@ -382,7 +379,7 @@ TEST_F(TakeExportTest, GoesOnWhereItWasBrokenOff) {
     EXPECT_EQ(export_moments(take_, ply, {}, path("points")).written, 11u);
 }
 
-TEST_F(TakeExportTest, IsTheSameByteForByteFromTwoProcessesAtATime) {
+TEST_F(TakeExportTest, TwoProcessesWriteTheSameBytes) {
     const std::string take = take_.path().string();
     const auto arguments = [&](const std::string& folder) {
         return std::vector<std::string>{
@@ -413,7 +410,7 @@ TEST_F(TakeExportTest, IsTheSameByteForByteFromTwoProcessesAtATime) {
     EXPECT_EQ(static_cast<std::size_t>(std::distance(begin(parts), end(parts))), files);
 }
 
-TEST_F(TakeExportTest, MixesWithNothingElse) {
+TEST_F(TakeExportTest, RefusesAFolderWithOtherContent) {
     const auto refused = [&](const std::string& form, const std::string& folder,
                              const std::string& words) {
         const std::string sentence = thrown_sentence(
@@ -421,18 +418,18 @@ TEST_F(TakeExportTest, MixesWithNothingElse) {
         EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
     };
     export_camera(take_, {}, path("flight"));
-    refused("ply", "flight", "holds another export already");
+    refused("ply", "flight", "contains another export");
     std::ofstream(path("other")) << "mine";
-    refused("views", "", "holds other files");
-    refused("fbx", "new", "there are camera, film, ply, glb, exr, training, views, mpeg");
+    refused("views", "", "contains other files");
+    refused("fbx", "new", "the formats are camera, film, ply, glb, exr, training, views, mpeg");
     EXPECT_NE(thrown_sentence([&] {
                   export_moments(take_, find_export_format("ply"), {5, 6, 1}, path("new"));
-              }).find("no frame is in that part"),
+              }).find("the range has no frames"),
               std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(path("new")));
 }
 
-TEST_F(TakeExportTest, LeavesDamagedFramesOutAndCountsThem) {
+TEST_F(TakeExportTest, SkipsAndCountsDamagedFrames) {
     const std::filesystem::path file = path("damaged.mkv");
     write_small_take(file, {"north", "south"}, 100, 103);
     std::vector<std::byte> bytes = bytes_of_file(file);

@@ -110,7 +110,7 @@ class KeptFetchTest : public testing::Test {
         PulseGrid(rate_hz).index_at_or_before(TaiClock::now() - std::chrono::seconds(60));
 };
 
-TEST_F(KeptFetchTest, BringsWhatTheRigsKeepByteForByte) {
+TEST_F(KeptFetchTest, FetchesRecordingsByteForByte) {
     const auto north = start("north"), south = start("south");
     const StageConfig stage = stage_of({north.get(), south.get()}, {"north", "south"});
     const std::vector<FetchStats> stats = run(all(), stage);
@@ -132,7 +132,7 @@ TEST_F(KeptFetchTest, BringsWhatTheRigsKeepByteForByte) {
     expect_as_kept("north");
 }
 
-TEST_F(KeptFetchTest, WhatWasBrokenOffGoesOnAndReplacesNothing) {
+TEST_F(KeptFetchTest, ResumesAnInterruptedFetchWithoutReplacingFiles) {
     const auto north = start("north");
     const StageConfig stage = stage_of({north.get()}, {"north"});
     KeptFetch part = all();
@@ -146,7 +146,7 @@ TEST_F(KeptFetchTest, WhatWasBrokenOffGoesOnAndReplacesNothing) {
     expect_as_kept("north");
 }
 
-TEST_F(KeptFetchTest, BringsOnlyWhatATakeLacks) {
+TEST_F(KeptFetchTest, FetchesOnlyFramesThatATakeLacks) {
     const auto north = start("north");
     const auto path = folder_.path() / "hosts.mkv";
     std::vector<std::uint64_t> gaps{first_ + 3, first_ + 4, first_ + 17, first_ + 21, first_ + 38};
@@ -163,7 +163,7 @@ TEST_F(KeptFetchTest, BringsOnlyWhatATakeLacks) {
     EXPECT_TRUE(check_take(TakeReader(folder_.path() / "whole.mkv")).is_whole());
 }
 
-TEST_F(KeptFetchTest, ARigThatIsStartedAnewIsTakenUpWhereItWas) {
+TEST_F(KeptFetchTest, ContinuesAfterARestartOfTheRig) {
     auto north = start("north");
     const StageConfig stage = stage_of({north.get()}, {"north"});
     RigConfig::Stream stream = open_stream();
@@ -187,7 +187,7 @@ TEST_F(KeptFetchTest, ARigThatIsStartedAnewIsTakenUpWhereItWas) {
     expect_as_kept("north");
 }
 
-TEST_F(KeptFetchTest, PulsesThatTheRigHasNotEitherAreCounted) {
+TEST_F(KeptFetchTest, CountsPulsesThatTheRigHasNotRecorded) {
     const auto north = start("north");
     KeptFetch fetch = all();
     fetch.range = [this](int) { return PulseRange{first_ - 5, first_ + 60}; };
@@ -197,14 +197,14 @@ TEST_F(KeptFetchTest, PulsesThatTheRigHasNotEitherAreCounted) {
     EXPECT_EQ(stats[0].trouble, "");
 }
 
-TEST_F(KeptFetchTest, ARigThatKeepsNothingSaysSo) {
+TEST_F(KeptFetchTest, ReportsARigWithoutRecordings) {
     const Publisher north(open_stream(), "north");
     const auto stats = run(all(), stage_of({&north}, {"north"}));
     EXPECT_THAT(stats[0].trouble, HasSubstr("[keep]"));
     EXPECT_EQ(north.status().refused_fetches, 1u);
 }
 
-TEST_F(KeptFetchTest, NobodyFetchesWhomTheRigDoesNotKnow) {
+TEST_F(KeptFetchTest, RefusesAHostThatTheRigDoesNotKnow) {
     RigConfig::Stream stream = open_stream();
     stream.key_file = folder_.path() / "rig.key";
     stream.authorized_hosts = folder_.path() / "authorized_hosts";
@@ -229,21 +229,21 @@ TEST_F(KeptFetchTest, NobodyFetchesWhomTheRigDoesNotKnow) {
     expect_as_kept("north");
 }
 
-TEST_F(KeptFetchTest, ARateThatIsNotTheStagesIsTold) {
+TEST_F(KeptFetchTest, ReportsARateDifferentFromTheStages) {
     const auto north = start("north");
     StageConfig stage = stage_of({north.get()}, {"north"});
     stage.rate_hz = 30;
-    EXPECT_THAT(run(all(), stage)[0].trouble, HasSubstr("25 pulses a second"));
+    EXPECT_THAT(run(all(), stage)[0].trouble, HasSubstr("25 pulses per second"));
 }
 
-TEST_F(KeptFetchTest, ARigThatIsNotOfTheStageIsRefused) {
+TEST_F(KeptFetchTest, RefusesARigOutsideTheStage) {
     KeptFetch fetch = all();
     fetch.rigs = {"west"};
     EXPECT_THAT(thrown_sentence([&] { (void)run(fetch, {}); }), HasSubstr("west"));
 }
 
 /// What the reader finds, by pulse.
-TEST_F(KeptFetchTest, TheReaderPassesOverDamageAndFollowsAFileThatGrows) {
+TEST_F(KeptFetchTest, TheReaderSkipsDamageAndFollowsAGrowingFile) {
     const std::filesystem::path damaged = kept("north") / kept_file_name("north", begin_s_);
     const TakeReader before(damaged);
     std::vector<std::byte> bytes = bytes_of_file(damaged);

@@ -103,7 +103,7 @@ class FilmExport : public testing::Test {
         std::make_shared<const TakeReader>(source_folder() / "tests" / "takes" / "version_1.mkv");
 };
 
-TEST_F(FilmExport, AMoveOverAPartGoesAtNormalSpeedAndStaysWhereItEnds) {
+TEST_F(FilmExport, PlaysAPartAtNormalSpeedAndHoldsTheMovesEnd) {
     OrbitView end;
     end.azimuth_rad = 1;
     const Move move({{0, {}, Easing::linear}, {0.2, end, Easing::linear}}, false);
@@ -117,7 +117,7 @@ TEST_F(FilmExport, AMoveOverAPartGoesAtNormalSpeedAndStaysWhereItEnds) {
     EXPECT_FALSE(is_same_view(pictures[1].camera, end.camera()));
 }
 
-TEST_F(FilmExport, AMoveThatLeadsTimeIsAsLongAsItIs) {
+TEST_F(FilmExport, AMoveWithTimeDeterminesTheLength) {
     const Move move({{0, {}, Easing::linear, 0.4},
                      {2, {}, Easing::linear, 0.4},
                      {2.4, {}, Easing::linear, 0.0}},
@@ -130,7 +130,7 @@ TEST_F(FilmExport, AMoveThatLeadsTimeIsAsLongAsItIs) {
     EXPECT_NEAR(pictures.back().pulse, frozen - 0.2 * rate_hz(), 1e-3) << "backwards";
 }
 
-TEST_F(FilmExport, TheFlightOfTheTakeIsShownTickByTick) {
+TEST_F(FilmExport, ShowsTheRecordedCameraTickByTick) {
     const std::vector<FilmPicture> pictures = film_of_cameras(*take_, {}, rate_hz());
     ASSERT_NEAR(static_cast<double>(pictures.size()), static_cast<double>(take_->cameras().size()),
                 1);
@@ -143,7 +143,7 @@ TEST_F(FilmExport, TheFlightOfTheTakeIsShownTickByTick) {
               std::string::npos);
 }
 
-TEST_F(FilmExport, FromARigsPlaceItIsWhatTheRigSaw) {
+TEST_F(FilmExport, EqualsTheRigsImageFromItsPose) {
     std::vector<FilmPicture> pictures(6, {first(), rigs_camera()});
     for (std::size_t i = 0; i < pictures.size(); ++i) pictures[i].pulse += static_cast<double>(i);
     EXPECT_EQ(film(pictures, "rig.mkv").written, pictures.size());
@@ -160,14 +160,14 @@ TEST_F(FilmExport, FromARigsPlaceItIsWhatTheRigSaw) {
     EXPECT_GT(psnr_db(read_colour_image(path("last.png")), moment.views[0].colour), 24);
 }
 
-TEST_F(FilmExport, ReplacesNothing) {
+TEST_F(FilmExport, ReplacesNoFile) {
     std::ofstream(path("film.mkv")) << "mine";
     EXPECT_NE(thrown_sentence([&] { film(flight(4), "film.mkv"); }).find("already"),
               std::string::npos);
     EXPECT_EQ(std::filesystem::file_size(path("film.mkv")), 4u);
 }
 
-TEST_F(FilmExport, GoesOnWhereItWasEndedWithoutCodingAnythingAnew) {
+TEST_F(FilmExport, ResumesWithoutReencoding) {
     const std::vector<FilmPicture> pictures = flight(12);
     EXPECT_EQ(begin_film(pictures, "film.mkv", 7).written, 7u);
     EXPECT_FALSE(std::filesystem::exists(path("film.mkv")));
@@ -187,7 +187,7 @@ TEST_F(FilmExport, GoesOnWhereItWasEndedWithoutCodingAnythingAnew) {
     expect_same_film("film.mkv", "unbroken.mkv");
 }
 
-TEST_F(FilmExport, AFilmThatWasKilledGoesOn) {
+TEST_F(FilmExport, ResumesAKilledExport) {
     const std::vector<FilmPicture> pictures = flight(14);
     const std::filesystem::path parts = FilmParts::folder_of(path("film.mp4"));
     const pid_t child = fork();
@@ -214,20 +214,21 @@ TEST_F(FilmExport, AFilmThatWasKilledGoesOn) {
             << entry.path();
 }
 
-TEST_F(FilmExport, PartsAreOfOneExportAtATimeAndWhole) {
+TEST_F(FilmExport, LocksItsPartsAndChecksThem) {
     const std::vector<FilmPicture> pictures = flight(6);
     begin_film(pictures, "film.mkv", 5);
     const std::filesystem::path parts = FilmParts::folder_of(path("film.mkv"));
     {
         const FilmParts held(parts, rate_hz());
         EXPECT_EQ(held.pictures(), 5u);
-        EXPECT_NE(thrown_sentence([&] { film(pictures, "film.mkv"); }).find("let it end"),
-                  std::string::npos);
+        EXPECT_NE(
+            thrown_sentence([&] { film(pictures, "film.mkv"); }).find("wait until it has ended"),
+            std::string::npos);
     }
     std::ofstream(parts / "00000000.mp4") << "damaged";
     const std::string sentence = thrown_sentence([&] { film(pictures, "film.mkv"); });
     EXPECT_NE(sentence.find("00000000.mp4"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("take it away"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("delete it"), std::string::npos) << sentence;
 }
 
 }  // namespace

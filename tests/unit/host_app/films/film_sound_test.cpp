@@ -1,10 +1,9 @@
-#include "host_app/exports/film_sound.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "common/base/time/pulse_grid.h"
+#include "host_app/exports/film_export.h"
 
 namespace vantage {
 namespace {
@@ -18,7 +17,7 @@ std::vector<FilmPicture> pictures_at(const std::vector<double>& pulses) {
     return pictures;
 }
 
-TEST(FilmSound, GoesEvenlyWherePicturesRepeatAPulse) {
+TEST(FilmSound, IsContinuousWherePicturesRepeatAPulse) {
     std::vector<double> pulses;
     // Now and then one comes a tick late.
     for (int i = 0; i < 200; ++i) pulses.push_back(std::floor((i - (i % 17 == 3)) / 2.0));
@@ -30,7 +29,7 @@ TEST(FilmSound, GoesEvenlyWherePicturesRepeatAPulse) {
     }
 }
 
-TEST(FilmSound, IsSilentWhereTimeStandsOrGoesSlowlyOrBackwards) {
+TEST(FilmSound, IsSilentUnlessTimeAdvancesAtNormalSpeed) {
     std::vector<double> pulses;
     for (int i = 0; i < 150; ++i) pulses.push_back(std::floor(i / 2.0));
     for (int i = 0; i < 150; ++i) pulses.push_back(75);

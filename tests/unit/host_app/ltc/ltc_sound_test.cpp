@@ -34,7 +34,7 @@ class LtcSound : public testing::TestWithParam<Rate> {
     }
 };
 
-TEST_P(LtcSound, IsReadAsItWasWritten) {
+TEST_P(LtcSound, RoundTrips) {
     const auto& [hz, count] = GetParam();
     // Over a minute that drops numbers, and midnight.
     for (const std::int64_t from : {std::int64_t{1700}, count.frames() - 100}) {
@@ -64,7 +64,7 @@ TEST_P(LtcSound, IsReadAsItWasWritten) {
     }
 }
 
-TEST_P(LtcSound, WhatDoesNotFollowIsCountedAndNotBelieved) {
+TEST_P(LtcSound, CountsAndIgnoresCodesThatDoNotFollow) {
     LtcReader reader;
     std::vector<float> samples = written(1000, 10);
     const std::vector<float> elsewhere = written(50'000, 1), on = written(1011, 10);
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Rates, LtcSound,
                          testing::Values(Rate{24, {24}}, Rate{25, {25}},
                                          Rate{30000.0 / 1001, {30, true}}, Rate{30, {30}}));
 
-TEST(LtcNoise, IsNoTimeCode) {
+TEST(LtcNoise, YieldsNoTimeCode) {
     LtcReader reader;
     std::vector<float> samples(200'000);
     std::uint32_t state = 1;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/ltc/ltc_flywheel.h"
+#include "host_app/ltc/ltc_writer.h"
 
 namespace vantage {
 namespace {
@@ -11,7 +11,7 @@ std::string code_at(const SmpteCount& count, std::int64_t frame) {
     return count.code_of(frame).text();
 }
 
-TEST(SmpteCode, IsReadAndWritten) {
+TEST(SmpteCode, RoundTrips) {
     for (const std::string text : {"00:00:00:00", "23:59:59:24", "10:02:03;28"})
         EXPECT_EQ(SmpteCode::parse(text)->text(), text);
     for (const std::string text : {"", "24:00:00:00", "10:60:00:00", "10:00:00.00", "1:00:00:00",
@@ -19,7 +19,7 @@ TEST(SmpteCode, IsReadAndWritten) {
         EXPECT_FALSE(SmpteCode::parse(text)) << text;
 }
 
-TEST(SmpteCount, CountsADayThereAndBack) {
+TEST(SmpteCount, RoundTripsEveryFrameOfADay) {
     for (const SmpteCount count : {SmpteCount{24}, SmpteCount{25}, SmpteCount{30},
                                    SmpteCount{30, true}, SmpteCount{50}, SmpteCount{60, true}})
         for (std::int64_t frame = 0; frame < count.frames(); frame += 997)
@@ -38,7 +38,7 @@ TEST(SmpteCount, DropsNumbersOfEveryMinuteButEachTenth) {
     EXPECT_FALSE(SmpteCount{25}.frame_of(*SmpteCode::parse("00:00:00:25")));
 }
 
-TEST(SmpteCount, KnowsTheShorterWayAroundTheDay) {
+TEST(SmpteCount, MeasuresTheShorterWayAroundTheDay) {
     const SmpteCount pal{25};
     EXPECT_EQ(pal.between(3, pal.frames() - 2), 5);
     EXPECT_EQ(pal.between(pal.frames() - 2, 3), -5);
@@ -57,7 +57,7 @@ class LtcFlywheelTest : public testing::Test {
     LtcFlywheel wheel_{count_};
 };
 
-TEST_F(LtcFlywheelTest, GoesOnEvenlyWherePicturesRepeatOrAreMissing) {
+TEST_F(LtcFlywheelTest, CountsEvenlyWherePicturesRepeatOrAreMissing) {
     EXPECT_EQ(next(std::nullopt), "");
     EXPECT_EQ(next(100), "00:00:04:00");
     EXPECT_EQ(next(100), "00:00:04:01");
@@ -67,7 +67,7 @@ TEST_F(LtcFlywheelTest, GoesOnEvenlyWherePicturesRepeatOrAreMissing) {
     EXPECT_EQ(wheel_.jumps(), 0u);
 }
 
-TEST_F(LtcFlywheelTest, FollowsAJumpAndStandsWherePicturesStand) {
+TEST_F(LtcFlywheelTest, FollowsAJumpAndStopsWithThePictures) {
     next(100);
     EXPECT_EQ(next(1000), "00:00:40:00");
     EXPECT_EQ(next(1001), "00:00:40:01");

@@ -23,7 +23,7 @@ class MetricsServerTest : public testing::Test {
     MetricsServer server_{fmt::format("http://:{}", port_)};
 };
 
-TEST_F(MetricsServerTest, TellsWhatItWasShownLast) {
+TEST_F(MetricsServerTest, ServesTheLastText) {
     server_.show("vantage_ticks_total 7\n# EOF\n");
     const std::string answer = answer_of("GET", "/metrics");
     EXPECT_TRUE(answer.starts_with("HTTP/1.1 200")) << answer;
@@ -31,7 +31,7 @@ TEST_F(MetricsServerTest, TellsWhatItWasShownLast) {
     EXPECT_TRUE(answer.ends_with("\r\n\r\nvantage_ticks_total 7\n# EOF\n")) << answer;
 }
 
-TEST_F(MetricsServerTest, HasNothingElse) {
+TEST_F(MetricsServerTest, ServesNoOtherPath) {
     EXPECT_TRUE(answer_of("GET", "/").starts_with("HTTP/1.1 404"));
     EXPECT_TRUE(answer_of("GET", "/metrics/../../etc/passwd").starts_with("HTTP/1.1 404"));
     EXPECT_TRUE(answer_of("DELETE", "/metrics").starts_with("HTTP/1.1 405"));
@@ -39,7 +39,7 @@ TEST_F(MetricsServerTest, HasNothingElse) {
     EXPECT_TRUE(answer_of("GET", "/metrics").starts_with("HTTP/1.1 200")) << "it goes on";
 }
 
-TEST_F(MetricsServerTest, ListensHereOnlyUnlessItIsOpen) {
+TEST_F(MetricsServerTest, ListensOnLoopbackUnlessOpen) {
     const auto refusal = [](const std::string& url) {
         return thrown_sentence([&] { const MetricsServer server(url); });
     };

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "host_app/metrics/metric_text.h"
 #include "tests/support/source_folder.h"
 
 namespace vantage {
@@ -88,7 +87,7 @@ TEST(OpenMetrics, AreWellFormed) {
     EXPECT_EQ(lines.back(), "# EOF");
 }
 
-TEST(OpenMetrics, SayWhatTheReportSays) {
+TEST(OpenMetrics, ContainTheReportsValues) {
     const std::string text = to_open_metrics(example());
     for (const char* line :
          {"vantage_ticks_total 1234567\n", "vantage_missed_ticks_total 89\n",
@@ -103,7 +102,7 @@ TEST(OpenMetrics, SayWhatTheReportSays) {
         EXPECT_NE(text.find(line), std::string::npos) << line << text;
 }
 
-TEST(OpenMetrics, HaveWhatTheDashboardShows) {
+TEST(OpenMetrics, ContainTheDashboardsMetrics) {
     std::ifstream file(source_folder() / "hw_config/grafana/vantage.json");
     const nlohmann::json dashboard = nlohmann::json::parse(file);
     const std::string text = to_open_metrics(example());

@@ -109,7 +109,7 @@ class RigRelayTest : public testing::Test {
     CurveKeys relay_keys_, first_, second_;
 };
 
-TEST_F(RigRelayTest, CarriesTheRigsUplinkOnceAndEveryFrameToEveryHostByteForByte) {
+TEST_F(RigRelayTest, ForwardsEveryFrameOnceFromTheRigToEveryHost) {
     Publisher rig(stream(), "rig-a");
     const std::unique_ptr<RigRelay> relay = relay_of(rig);
     Tap first, second;
@@ -138,7 +138,7 @@ TEST_F(RigRelayTest, CarriesTheRigsUplinkOnceAndEveryFrameToEveryHostByteForByte
     }
 }
 
-TEST_F(RigRelayTest, ASlowHostHoldsUpNeitherTheRigNorAQuickOne) {
+TEST_F(RigRelayTest, ASlowHostDelaysNeitherTheRigNorOtherHosts) {
     Publisher rig(stream(), "rig-a");
     const std::unique_ptr<RigRelay> relay = relay_of(rig);
     std::mutex busy;
@@ -172,7 +172,7 @@ TEST_F(RigRelayTest, ASlowHostHoldsUpNeitherTheRigNorAQuickOne) {
     EXPECT_GT(of(other).link.send_dropped, 0u);
 }
 
-TEST_F(RigRelayTest, AsksTheRigOnlyForWhatSomeHostAsksFor) {
+TEST_F(RigRelayTest, RequestsOnlyFramesThatAHostRequests) {
     Publisher rig(stream(), "rig-a");
     const std::unique_ptr<RigRelay> relay = relay_of(rig);
     ASSERT_TRUE(eventually([&] { return rig.status().hosts.size() == 1; }));
@@ -195,7 +195,7 @@ TEST_F(RigRelayTest, AsksTheRigOnlyForWhatSomeHostAsksFor) {
     ASSERT_TRUE(eventually([&] { return of(host).link.skipped >= 1; }));
 }
 
-TEST_F(RigRelayTest, SaysWhyARigGivesNothingAndTakesItBackWhenItIsStartedAnew) {
+TEST_F(RigRelayTest, ReportsADisconnectedRigAndReconnects) {
     auto rig = std::make_unique<Publisher>(stream(), "rig-a");
     const std::string endpoint = rig->endpoint();
     const std::unique_ptr<RigRelay> relay = relay_of(*rig);
@@ -208,7 +208,7 @@ TEST_F(RigRelayTest, SaysWhyARigGivesNothingAndTakesItBackWhenItIsStartedAnew) {
     rig.reset();
     ASSERT_TRUE(eventually([&] { return !of(host).connected; }));
     ASSERT_TRUE(eventually([&] {
-        return of(host).unreachable.find("rig-a does not reach the relay") != std::string::npos;
+        return of(host).unreachable.find("the relay does not reach rig rig-a") != std::string::npos;
     }));
     EXPECT_EQ(of(host).refused, "") << "it comes back";
     EXPECT_EQ(of(host).restarts, 0u);
@@ -222,7 +222,7 @@ TEST_F(RigRelayTest, SaysWhyARigGivesNothingAndTakesItBackWhenItIsStartedAnew) {
     EXPECT_EQ(of(host).rig_counters.published, sent.size());
 }
 
-TEST_F(RigRelayTest, KeepsAHostWaitingThatComesBeforeItsRig) {
+TEST_F(RigRelayTest, AHostMayConnectBeforeItsRig) {
     StageConfig stage;
     auto rig = std::make_unique<Publisher>(stream(), "rig-a");
     const std::string endpoint = rig->endpoint(), key = rig->public_key();
@@ -258,11 +258,11 @@ TEST_F(RigRelayTest, AdmitsListedHostsOnlyAndIsItselfAdmittedByItsKey) {
     EXPECT_THAT(refused->status()[0].trouble, HasSubstr(relay_keys_.public_key));
 }
 
-TEST_F(RigRelayTest, PassesReportsOnAndNoRawPairs) {
+TEST_F(RigRelayTest, ForwardsReportsButNoRawPairs) {
     Publisher rig(stream(), "rig-a");
     rig.serve_reports([](const std::atomic<bool>&) { return std::string("report"); });
     const std::unique_ptr<RigRelay> relay = relay_of(rig);
-    StageReceiver host(behind(*relay, "first.key"), StageReceiver::Purpose::look_on);
+    StageReceiver host(behind(*relay, "first.key"), StageReceiver::Purpose::observe);
     ASSERT_TRUE(eventually([&] { return of(host).connected; }));
     host.ask_for_reports();
     ASSERT_TRUE(eventually([&] { return host.report_of(0) != nullptr; }));
@@ -270,10 +270,10 @@ TEST_F(RigRelayTest, PassesReportsOnAndNoRawPairs) {
     const StageReceiver calibrating(behind(*relay, "second.key"),
                                     StageReceiver::Purpose::calibrate);
     ASSERT_TRUE(eventually([&] { return !of(calibrating).refused.empty(); }));
-    EXPECT_THAT(of(calibrating).refused, HasSubstr("no raw pairs"));
+    EXPECT_THAT(of(calibrating).refused, HasSubstr("not forward raw pairs"));
 }
 
-TEST_F(RigRelayTest, RefusesWhatWouldLetAnyoneIn) {
+TEST_F(RigRelayTest, RefusesOpenSettings) {
     StageConfig stage;
     stage.rigs.push_back({"rig-a", "tcp://127.0.0.1:5600", ""});
     const auto sentence = [&](const RigRelay::Settings& settings) {

@@ -31,7 +31,7 @@ class AlsaSoundTest : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(AlsaSoundTest, GivesWhatTheDeviceHearsWithItsTimes) {
+TEST_F(AlsaSoundTest, DeliversTheDevicesSoundWithItsTimes) {
     write_clicks();
     std::mutex mutex;
     std::vector<SoundBlock> tapped;
@@ -58,7 +58,7 @@ TEST_F(AlsaSoundTest, GivesWhatTheDeviceHearsWithItsTimes) {
     EXPECT_EQ(read, tapped.back().samples);
 }
 
-TEST_F(AlsaSoundTest, ADeviceThatIsMissingIsNamedAndComesBackAlone) {
+TEST_F(AlsaSoundTest, ReportsAMissingDeviceAndRecovers) {
     const auto source = open_sound("alsa:clicks", {});
     ASSERT_TRUE(eventually([&] { return source->state().phase == SoundPhase::failed; }));
     EXPECT_NE(source->state().failure.find("clicks"), std::string::npos) << source->state().failure;

@@ -27,7 +27,7 @@ class FileSoundTest : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(FileSoundTest, IsReadToTheSampleAndEndsInSilence) {
+TEST_F(FileSoundTest, IsExactToTheSampleAndEndsInSilence) {
     write_wav(at("clicks.wav"), clicks(20.3));
     const auto source = open_sound("file:" + at("clicks.wav"), {});
     EXPECT_TRUE(source->goes_with_ticks());
@@ -41,7 +41,7 @@ TEST_F(FileSoundTest, IsReadToTheSampleAndEndsInSilence) {
     EXPECT_EQ(source->read(-10, before), 10u) << "it is silent before its beginning by right";
 }
 
-TEST_F(FileSoundTest, GoesOnFromItsBeginningWhereItLoops) {
+TEST_F(FileSoundTest, Loops) {
     write_wav(at("clicks.wav"), clicks(1.5));
     const auto source = open_sound(at("clicks.wav") + "?loop=yes", {});
     const std::vector<std::int64_t> found = found_clicks(all_of(*source, 12));
@@ -50,7 +50,7 @@ TEST_F(FileSoundTest, GoesOnFromItsBeginningWhereItLoops) {
         EXPECT_EQ(found[i], 48'000 + 72'000 * static_cast<std::int64_t>(i));
 }
 
-TEST_F(FileSoundTest, ComesInAnyRateAndCoding) {
+TEST_F(FileSoundTest, ReadsAnyRateAndCodec) {
     write_wav(at("clicks.wav"), clicks(3.5), 44'100);
     const auto wav = open_sound(at("clicks.wav"), {});
     const std::vector<std::int64_t> found = found_clicks(all_of(*wav, 4));
@@ -72,7 +72,7 @@ TEST_F(FileSoundTest, ComesInAnyRateAndCoding) {
     }
 }
 
-TEST_F(FileSoundTest, WhatIsNoSoundIsNamed) {
+TEST_F(FileSoundTest, NamesInvalidSources) {
     std::ofstream(at("words.txt")) << "no sound";
     for (const std::string& url :
          {at("words.txt"), at("missing.wav"), std::string("http://somewhere/a.wav"),

@@ -71,7 +71,7 @@ class PictureSoundTest : public testing::Test {
     std::optional<PictureSound> sound_;
 };
 
-TEST_F(PictureSoundTest, WhatWasHeardAtTheExposureLeavesWithThePicture) {
+TEST_F(PictureSoundTest, SoundIsOutputWithThePictureOfItsTime) {
     make(false);
     sound_->saw_live(300ms);
     for (std::int64_t tick = 0; tick < 100; ++tick) {
@@ -86,13 +86,13 @@ TEST_F(PictureSoundTest, WhatWasHeardAtTheExposureLeavesWithThePicture) {
     EXPECT_EQ(sound_->state().played, 96'000u);
 }
 
-TEST_F(PictureSoundTest, ADelayThatIsGivenIsKept) {
+TEST_F(PictureSoundTest, KeepsAGivenDelay) {
     make(false, 120ms);
     sound_->saw_live(300ms);
     expect_from(*live(0), begin - 5760);
 }
 
-TEST_F(PictureSoundTest, SlidesWhereThePictureComesLaterWithoutABreak) {
+TEST_F(PictureSoundTest, StretchesContinuouslyForALaterPicture) {
     make(false);
     sound_->saw_live(100ms);
     float last = live(0)->samples.back();
@@ -111,7 +111,7 @@ TEST_F(PictureSoundTest, SlidesWhereThePictureComesLaterWithoutABreak) {
     EXPECT_EQ(sound_->state().jumps, 0u);
 }
 
-TEST_F(PictureSoundTest, JumpsAndSaysSoWhereItIsTooFarToSlide) {
+TEST_F(PictureSoundTest, CountsAJumpBeyondTheStretchLimit) {
     make(false);
     sound_->saw_live(100ms);
     live(0);
@@ -120,7 +120,7 @@ TEST_F(PictureSoundTest, JumpsAndSaysSoWhereItIsTooFarToSlide) {
     EXPECT_EQ(sound_->state().jumps, 1u);
 }
 
-TEST_F(PictureSoundTest, IsSilentWhereTimeStandsOrGoesAnotherWay) {
+TEST_F(PictureSoundTest, IsSilentUnlessTimeAdvancesAtNormalSpeed) {
     make(false);
     sound_->next({at(0), at(-480'000)});
     sound_->next({at(960), at(-480'000 + 960)});
@@ -138,14 +138,14 @@ TEST_F(PictureSoundTest, IsSilentWhereTimeStandsOrGoesAnotherWay) {
     EXPECT_EQ(sound_->state().missing, 0u);
 }
 
-TEST_F(PictureSoundTest, CountsWhatIsNotThere) {
+TEST_F(PictureSoundTest, CountsMissingSamples) {
     make(false);
     source_->missing_after_ = true;
     live(0);
     EXPECT_EQ(sound_->state().missing, 960u);
 }
 
-TEST_F(PictureSoundTest, AFileGoesWithTheTicksToTheBitWhateverTimeDoes) {
+TEST_F(PictureSoundTest, AFileFollowsTheTicksBitForBit) {
     make(true);
     sound_->saw_live(300ms);
     for (std::int64_t tick = 0; tick < 20; ++tick) {
@@ -156,7 +156,7 @@ TEST_F(PictureSoundTest, AFileGoesWithTheTicksToTheBitWhateverTimeDoes) {
     }
 }
 
-TEST_F(PictureSoundTest, AFileGoesIntoATakeAtTheTimeOfItsPictures) {
+TEST_F(PictureSoundTest, AFileIsRecordedAtTheTimeOfItsPictures) {
     const std::vector<SoundBlock>& taken = make_with_tap();
     see_live(300ms);
     for (std::int64_t tick = 0; tick < 5; ++tick) live(tick);
@@ -165,7 +165,7 @@ TEST_F(PictureSoundTest, AFileGoesIntoATakeAtTheTimeOfItsPictures) {
         EXPECT_EQ(taken[i].first, begin - 14'400 + 960 * static_cast<std::int64_t>(i));
 }
 
-TEST_F(PictureSoundTest, AFilesSoundInATakeWaitsUntilTheDelayIsKnown) {
+TEST_F(PictureSoundTest, ARecordedFileWaitsForAKnownDelay) {
     const std::vector<SoundBlock>& taken = make_with_tap();
     sound_->saw_live(900ms);
     live(0);
@@ -176,7 +176,7 @@ TEST_F(PictureSoundTest, AFilesSoundInATakeWaitsUntilTheDelayIsKnown) {
     EXPECT_EQ(taken[0].first, begin + 960 - 14'400);
 }
 
-TEST_F(PictureSoundTest, AFilesSoundInATakeHasNoHoleWhenTheDelayChanges) {
+TEST_F(PictureSoundTest, ARecordedFileHasNoGapWhenTheDelayChanges) {
     const std::vector<SoundBlock>& taken = make_with_tap();
     see_live(600ms);
     std::int64_t tick = 0;

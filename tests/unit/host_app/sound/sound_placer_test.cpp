@@ -10,7 +10,7 @@ constexpr std::size_t block_samples = 480;
 
 TaiTime after(std::int64_t samples) { return time_of_sound(device_begin + samples); }
 
-TEST(SoundPlacer, PlacesBlocksOneBehindTheOtherWhateverTheSystemsClockSays) {
+TEST(SoundPlacer, PlacesBlocksContiguouslyDespiteJitter) {
     SoundPlacer placer;
     const std::vector<float> sound(block_samples * sound_channels, 0.5F);
     std::int64_t next = device_begin;
@@ -28,7 +28,7 @@ TEST(SoundPlacer, PlacesBlocksOneBehindTheOtherWhateverTheSystemsClockSays) {
 
 class DriftingDevice : public testing::TestWithParam<int> {};
 
-TEST_P(DriftingDevice, IsKeptWithinMillisecondsOfTime) {
+TEST_P(DriftingDevice, StaysWithinMillisecondsOfTheClock) {
     const double ppm = GetParam();
     SoundPlacer placer;
     const std::vector<float> sound(block_samples * sound_channels, 0.5F);
@@ -47,7 +47,7 @@ TEST_P(DriftingDevice, IsKeptWithinMillisecondsOfTime) {
 
 INSTANTIATE_TEST_SUITE_P(Clocks, DriftingDevice, testing::Values(-300, -20, 50, 300));
 
-TEST(SoundPlacer, LeavesAGapWhereADeviceWasAwayAndDropsWhatComesTooFast) {
+TEST(SoundPlacer, LeavesAGapAfterAnOutageAndDropsSoundThatComesTooFast) {
     SoundPlacer placer;
     const std::vector<float> sound(block_samples * sound_channels, 0.5F);
     placer.place(sound, after(480));
@@ -60,7 +60,7 @@ TEST(SoundPlacer, LeavesAGapWhereADeviceWasAwayAndDropsWhatComesTooFast) {
     EXPECT_EQ(placer.stats().heard, 102u * 480u);
 }
 
-TEST(Stretched, GivesTheSameBitsWhereNothingChangesAndASmoothToneWhereItDoes) {
+TEST(Stretched, IsBitExactAtTheSameLengthAndSmoothOtherwise) {
     std::vector<float> tone;
     for (int i = 0; i < 960; ++i)
         tone.insert(tone.end(), 2, std::sin(2 * std::numbers::pi_v<float> * 440 * i / 48000));
@@ -73,7 +73,7 @@ TEST(Stretched, GivesTheSameBitsWhereNothingChangesAndASmoothToneWhereItDoes) {
     EXPECT_TRUE(stretched({}, 3).size() == 6);
 }
 
-TEST(SoundGrid, SharesASecondAmongTicksWithoutLosingASample) {
+TEST(SoundGrid, DividesASecondAmongTicks) {
     EXPECT_EQ(SoundGrid(50).first_of(7), 7 * 960);
     const SoundGrid ntsc(29.97);
     EXPECT_EQ(ntsc.first_of(30'000), 1001LL * 48'000);

@@ -13,7 +13,7 @@ std::vector<float> numbered(std::int64_t first, std::size_t count) {
     return samples;
 }
 
-TEST(SoundRing, GivesWhatWasWrittenAndSilenceForTheRest) {
+TEST(SoundRing, ReturnsSilenceForMissingSamples) {
     SoundRing ring(10);
     EXPECT_EQ(ring.write(100, numbered(100, 4)), 4u);
     std::vector<float> got(2 * 6);
@@ -38,7 +38,7 @@ TEST(SoundRing, KeepsTheLatestAndFillsGaps) {
     EXPECT_EQ(ring.read(0, got), 6u);
 }
 
-TEST(SoundRing, HoldsTheEndOfABlockThatIsLongerThanItself) {
+TEST(SoundRing, KeepsTheEndOfALongBlock) {
     SoundRing ring(10);
     ring.write(3, numbered(3, 25));
     std::vector<float> got(2 * 10);

@@ -18,7 +18,7 @@ class ClockTimeTest : public testing::Test {
     ClockTimeTest() { use_time_zone("Europe/Stockholm"); }
 };
 
-TEST_F(ClockTimeTest, ATimeOfTheDayIsTheLastOneAndItsEndTheFirstAfterIt) {
+TEST_F(ClockTimeTest, FindsTheLastBeginAndTheFirstEndAfterIt) {
     const ClockSpan today = clock_span("20:14:00", "20:14:30", evening);
     EXPECT_EQ(today.from.utc_s, evening - 60);
     EXPECT_EQ(today.to.utc_s, evening - 30);
@@ -40,7 +40,7 @@ TEST_F(ClockTimeTest, DatesAreRead) {
         << "summer time";
 }
 
-TEST_F(ClockTimeTest, ATimeCodeIsItsPulse) {
+TEST_F(ClockTimeTest, ConvertsATimeCodeToItsPulse) {
     for (const double rate : {23.976, 25.0, 29.97, 50.0, 60.0})
         for (const int offset_s : {0, 37}) {
             const PulseGrid pulses(rate);
@@ -57,10 +57,10 @@ TEST_F(ClockTimeTest, ATimeCodeIsItsPulse) {
                     (void)pulse_of(clock_span("20:15:00:40", "20:16:00", evening + 30).from,
                                    PulseGrid(25), 37);
                 }),
-                testing::HasSubstr("no time code at 25 pulses"));
+                testing::HasSubstr("does not exist in time code at 25 pulses"));
 }
 
-TEST_F(ClockTimeTest, WhatIsNoneIsRefused) {
+TEST_F(ClockTimeTest, RefusesInvalidTimes) {
     for (const char* text : {"", "20:15", "20:15:00:", "20:15:00:1x", "25:00:00", "20:60:00", "-1",
                              "2026-13-01T20:15:00", "2026-02-30T20:15:00", "T20:15:00",
                              "2026-11-22 20:15:00", "20:15:00 "})

@@ -1,15 +1,13 @@
-#include "host_app/takes/pulse_range.h"
-
 #include <gtest/gtest.h>
 
-#include "host_app/takes/bandwidth_budget.h"
+#include "host_app/takes/rig_fetch.h"
 
 namespace vantage {
 namespace {
 
 using Parts = std::vector<PulseRange>;
 
-TEST(PulseRangeTest, MissingPartsAreThoseBetweenWhatIsThere) {
+TEST(PulseRangeTest, ComputesMissingParts) {
     const auto missing = [](PulseRange whole, std::vector<std::uint64_t> there) {
         return missing_parts(whole, there);
     };
@@ -20,7 +18,7 @@ TEST(PulseRangeTest, MissingPartsAreThoseBetweenWhatIsThere) {
     EXPECT_EQ(missing({10, 10}, {}), Parts{});
 }
 
-TEST(BandwidthBudgetTest, LetsNoMoreThroughThanItIsToldForALongTime) {
+TEST(BandwidthBudgetTest, LimitsTheLongTermRate) {
     BandwidthBudget budget(1e6);
     MonotonicTime now = monotonic_from_ns(1'000'000'000);
     double spent = 0;
@@ -36,7 +34,7 @@ TEST(BandwidthBudgetTest, LetsNoMoreThroughThanItIsToldForALongTime) {
     EXPECT_TRUE(budget.may_spend(now + std::chrono::nanoseconds(10)));
 }
 
-TEST(BandwidthBudgetTest, APauseSavesAQuarterOfASecondAtMost) {
+TEST(BandwidthBudgetTest, APauseSavesAtMostAQuarterOfASecond) {
     BandwidthBudget budget(1e6);
     MonotonicTime now = monotonic_from_ns(1'000'000'000);
     budget.may_spend(now);

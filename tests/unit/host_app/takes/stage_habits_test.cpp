@@ -1,9 +1,8 @@
-#include "host_app/takes/stage_habits.h"
-
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "host_app/takes/take_show.h"
 #include "tests/support/data_folder.h"
 #include "tests/unit/common/take/small_take.h"
 
@@ -27,7 +26,7 @@ class StageHabitsTest : public testing::Test {
     TemporaryFolder folder_;
 };
 
-TEST_F(StageHabitsTest, ATakeIsFlownAsItsStageWas) {
+TEST_F(StageHabitsTest, ReadsTheFlightSettingsOfATake) {
     const FlightHabits flown = habits(
         "version = 1\nkey_file = \"not/at/hand\"\n[[rigs]]\nname = \"north\"\npublic_key_file = "
         "\"neither\"\n[flight]\nhorizon = false\nmax_turn_deg_s = 90\nmax_speed_m_s = 2.5\nramp_s "
@@ -41,7 +40,7 @@ TEST_F(StageHabitsTest, ATakeIsFlownAsItsStageWas) {
     EXPECT_EQ(flown.keyframe_gap_s, 7);
 }
 
-TEST_F(StageHabitsTest, AStageThatCannotBeReadIsNoHindrance) {
+TEST_F(StageHabitsTest, UsesDefaultsForAnUnreadableStageFile) {
     for (const char* stage : {"", "no TOML [", "version = 1\n[flight]\nramp_s = -1\n",
                               "version = 1\n[flight]\nsideways = 3\n", "version = 7\n"})
         EXPECT_EQ(habits(stage).ramp_s, FlightHabits().ramp_s) << stage;

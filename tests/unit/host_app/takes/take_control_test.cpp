@@ -37,7 +37,7 @@ class TakeControlTest : public testing::Test {
     std::map<std::string, bool> sends_{{"a", true}, {"b", true}}, is_looked_at_ = sends_;
 };
 
-TEST_F(TakeControlTest, WhileATakeRunsAllRigsSendAndOnlyThoseThatAreNeededAreLookedAt) {
+TEST_F(TakeControlTest, DuringATakeAllRigsSendAndOnlyNeededOnesAreDecoded) {
     TakeControl takes(stage_, file_, take_, folder_.path(), std::chrono::nanoseconds(0));
     const StageFeed feed = takes.feed(feed_);
     feed.ask("b", false);
@@ -51,7 +51,7 @@ TEST_F(TakeControlTest, WhileATakeRunsAllRigsSendAndOnlyThoseThatAreNeededAreLoo
     EXPECT_TRUE(is_looked_at_["b"]) << "the camera comes round";
 }
 
-TEST_F(TakeControlTest, WhatMayBecomeAPreRollIsSentByAllRigs) {
+TEST_F(TakeControlTest, AllRigsSendForAPreRoll) {
     TakeControl takes(stage_, file_, take_, folder_.path(), std::chrono::seconds(5));
     const StageFeed feed = takes.feed(feed_);
     feed.ask("b", false);

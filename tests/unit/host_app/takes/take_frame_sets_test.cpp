@@ -1,6 +1,7 @@
+#include "host_app/takes/take_frame_sets.h"
+
 #include <gtest/gtest.h>
 
-#include "host_app/takes/take_frame_sets.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/support/wire_frames.h"
@@ -22,7 +23,7 @@ class TakeFrameSetsTest : public testing::Test {
     std::filesystem::path file_ = folder_.path() / "take.mkv";
 };
 
-TEST_F(TakeFrameSetsTest, SeeksToThePulseFromAnywhereInAnyOrder) {
+TEST_F(TakeFrameSetsTest, SeeksInAnyOrder) {
     write();
     const TakeFrameSets sets(reader());
     EXPECT_EQ(sets.span()->oldest, 100u);
@@ -48,7 +49,7 @@ TEST_F(TakeFrameSetsTest, SeeksToThePulseFromAnywhereInAnyOrder) {
     EXPECT_TRUE(same_pixels(sets.at(140)->slots[1].frame->disparity, then.disparity));
 }
 
-TEST_F(TakeFrameSetsTest, LeavesAGapAGapAndStaysWithinItsEnds) {
+TEST_F(TakeFrameSetsTest, KeepsGapsAndStaysWithinItsEnds) {
     write({120});
     const TakeFrameSets sets(reader());
     EXPECT_EQ(sets.at(120)->present(), 1);
@@ -58,7 +59,7 @@ TEST_F(TakeFrameSetsTest, LeavesAGapAGapAndStaysWithinItsEnds) {
     EXPECT_EQ(sets.pulse_at(119.99), 119u);
 }
 
-TEST_F(TakeFrameSetsTest, ShowsWhatIsSoundOfADamagedTake) {
+TEST_F(TakeFrameSetsTest, ShowsUndamagedFramesOfADamagedTake) {
     write();
     std::vector<std::byte> bytes = bytes_of_file(file_);
     bytes[reader()->frames(0)[30].colour.at + 50] ^= std::byte{1};
@@ -68,7 +69,7 @@ TEST_F(TakeFrameSetsTest, ShowsWhatIsSoundOfADamagedTake) {
     EXPECT_EQ(sets.at(131)->present(), 2);
 }
 
-TEST_F(TakeFrameSetsTest, DecodesWhatWasSoughtAloneAndWhatFollowsOnceItGoesOnFromThere) {
+TEST_F(TakeFrameSetsTest, DecodesASeekTargetAloneAndThenAhead) {
     write();
     std::vector<std::byte> bytes = bytes_of_file(file_);
     bytes[reader()->frames(0)[31].colour.at + 50] ^= std::byte{1};
@@ -99,7 +100,7 @@ TEST_F(TakeFrameSetsTest, RefusesATakeWithoutFrames) {
         TakeWriter writer(file_, small_facts({"north"}, 100));
         writer.finish();
     }
-    EXPECT_NE(thrown_sentence([&] { TakeFrameSets sets(reader()); }).find("holds no frame"),
+    EXPECT_NE(thrown_sentence([&] { TakeFrameSets sets(reader()); }).find("has no frames"),
               std::string::npos);
 }
 

@@ -46,7 +46,7 @@ class MsrImportTest : public testing::Test {
     Pose camera_from_world_ = Pose::Identity();
 };
 
-TEST_F(MsrImportTest, PutsEveryPixelWhereTheDataSetHasIt) {
+TEST_F(MsrImportTest, PlacesEveryPixelAsTheDataSetDoes) {
     const ImportedViews imported = import_msr3dvideo(folder_.path(), out(), {}, {});
     EXPECT_EQ(imported.views, 1);
     EXPECT_EQ(imported.with_geometry, 1);
@@ -76,7 +76,7 @@ TEST_F(MsrImportTest, PutsEveryPixelWhereTheDataSetHasIt) {
     }
 }
 
-TEST_F(MsrImportTest, RefusesWhatIsMissingInOneSentence) {
+TEST_F(MsrImportTest, ReportsMissingFilesInOneSentence) {
     EXPECT_THROW(import_msr3dvideo(folder_.path(), out(), 8, {}), Error);
     EXPECT_THROW(import_msr3dvideo(folder_.path(), out(), {}, std::pair(5.0, 4.0)), Error);
     EXPECT_FALSE(fs::exists(out() / "views.json"));
@@ -87,7 +87,7 @@ TEST_F(MsrImportTest, RefusesWhatIsMissingInOneSentence) {
     EXPECT_THROW(import_msr3dvideo(folder_.path() / "cam3", out(), {}, {}), Error);
 }
 
-TEST_F(MsrImportTest, RefusesAnInstantWithoutDepthAndTakesTheFirstThatHasSome) {
+TEST_F(MsrImportTest, RefusesAnInstantWithoutDepthAndDefaultsToTheFirstWithDepth) {
     fs::copy(folder_.path() / "cam3/color-cam3-f007.png",
              folder_.path() / "cam3/color-cam3-f002.png");
     EXPECT_EQ(import_msr3dvideo(folder_.path(), out(), {}, {}).with_geometry, 1);
@@ -98,7 +98,7 @@ TEST_F(MsrImportTest, RefusesAnInstantWithoutDepthAndTakesTheFirstThatHasSome) {
     EXPECT_FALSE(fs::exists(folder_.path() / "other"));
 }
 
-TEST_F(MsrImportTest, LeavesAViewSetThatIsThereAlone) {
+TEST_F(MsrImportTest, KeepsAnExistingViewSet) {
     import_msr3dvideo(folder_.path(), out(), {}, {});
     EXPECT_THROW(import_msr3dvideo(folder_.path(), out(), {}, {}), Error);
     EXPECT_EQ(load_view_set(out()).views.size(), 1u);

@@ -15,13 +15,13 @@ ColourImage noise(int width, int height, std::uint64_t seed) {
     return image;
 }
 
-TEST(Psnr, IsThatOfAKnownError) {
+TEST(Psnr, MatchesAKnownError) {
     const ColourImage a(7, 5, cv::Vec4b(100, 100, 100, 255));
     const ColourImage b(7, 5, cv::Vec4b(110, 110, 110, 0));
     EXPECT_NEAR(psnr_db(a, b), 10 * std::log10(255.0 * 255 / 100), 1e-9);
 }
 
-TEST(Psnr, LooksOnlyWhereTheMaskSaysSo) {
+TEST(Psnr, UsesOnlyPixelsInTheMask) {
     const ColourImage a(4, 4, cv::Vec4b(0, 0, 0, 255));
     ColourImage b = a.clone();
     b(0, 0) = cv::Vec4b(255, 255, 255, 255);
@@ -32,33 +32,33 @@ TEST(Psnr, LooksOnlyWhereTheMaskSaysSo) {
     EXPECT_EQ(psnr_db(a, b, cv::Mat1b(4, 4, uchar{0})), 0);
 }
 
-TEST(Psnr, OfEqualPicturesIsTheLargest) {
+TEST(Psnr, IsTheMaximumForEqualImages) {
     const ColourImage a = noise(31, 17, 1);
     EXPECT_EQ(psnr_db(a, a), max_psnr_db);
 }
 
-TEST(Ssim, OfEqualPicturesIsOne) {
+TEST(Ssim, IsOneForEqualImages) {
     const ColourImage a = noise(61, 47, 2);
     EXPECT_NEAR(ssim(a, a), 1, 1e-6);
 }
 
-TEST(Ssim, OfFlatPicturesIsTheLuminanceTerm) {
+TEST(Ssim, IsTheLuminanceTermForFlatImages) {
     const ColourImage a(40, 40, cv::Vec4b(100, 100, 100, 255));
     const ColourImage b(40, 40, cv::Vec4b(150, 150, 150, 255));
     const double c1 = 6.5025;
     EXPECT_NEAR(ssim(a, b), (2 * 100 * 150 + c1) / (100 * 100 + 150 * 150 + c1), 1e-3);
 }
 
-TEST(Ssim, OfUnrelatedNoiseIsNearZero) {
+TEST(Ssim, IsNearZeroForUnrelatedNoise) {
     EXPECT_LT(std::abs(ssim(noise(200, 200, 1234567), noise(200, 200, 0xfedcba987))), 0.05);
 }
 
-TEST(Ssim, TakesPicturesSmallerThanItsWindow) {
+TEST(Ssim, AcceptsImagesSmallerThanItsWindow) {
     const ColourImage a = noise(5, 3, 5);
     EXPECT_NEAR(ssim(a, a), 1, 1e-6);
 }
 
-TEST(Coverage, CountsWhatRigsSaw) {
+TEST(Coverage, CountsPixelsThatRigsSee) {
     ColourImage image(2, 4, cv::Vec4b(1, 2, 3, 255));
     image(0, 0)[3] = 64;
     image(1, 3)[3] = 0;

@@ -88,7 +88,7 @@ TEST_F(ViewSetTest, ReadsDepthInMetresAndPfmWithoutScale) {
     EXPECT_EQ(view.baseline_m, 0);
 }
 
-TEST_F(ViewSetTest, TakesAViewWithoutGeometry) {
+TEST_F(ViewSetTest, AcceptsAViewWithoutGeometry) {
     first().erase("disparity");
     EXPECT_TRUE(load().views[0].depth_m.empty());
 }
@@ -139,7 +139,7 @@ TEST_F(ViewSetTest, RefusesWrongValuesByKeyAndView) {
     }
 }
 
-TEST_F(ViewSetTest, RefusesWhatIsNoViewSet) {
+TEST_F(ViewSetTest, RefusesInvalidFiles) {
     for (const char* text : {"", "{", "[]", "7", "{\"version\":2,\"views\":[]}", "{\"version\":1}",
                              "{\"version\":1,\"views\":[]}", "{\"version\":1,\"views\":[3]}",
                              "{\"version\":1,\"views\":{}}", "{\"version\":\"1\",\"views\":[]}",
@@ -166,7 +166,7 @@ TEST_F(ViewSetTest, TakesASmallerMapOfTheSameShapeOnly) {
     EXPECT_NE(refusal().find("4x4"), std::string::npos) << refusal();
 }
 
-TEST_F(ViewSetTest, NamesTheViewsThereAreWhenAskedForAnother) {
+TEST_F(ViewSetTest, ListsTheViewsForAnUnknownName) {
     const ViewSet set = load();
     EXPECT_EQ(set.index_of("left"), 0u);
     try {
@@ -193,7 +193,7 @@ TEST_F(ViewSetTest, ReadsAPoseFromJsonAndToml) {
     }
 }
 
-TEST_F(ViewSetTest, RefusesPosesThatCannotBe) {
+TEST_F(ViewSetTest, RefusesInvalidPoses) {
     for (const char* text : {"", "width = 64", "{}", "{\"width\":0,\"height\":1}",
                              "{\"width\":1e9,\"height\":1}", "{\"width\":64,\"height\":48}"}) {
         std::ofstream(path("p.json")) << text;

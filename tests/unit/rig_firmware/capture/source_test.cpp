@@ -62,7 +62,7 @@ TEST(VirtualSource, LeavesOutTheExactDisparityThatNobodyAsksFor) {
 TEST(VirtualSource, FilmsTheSetThatIsAskedFor) {
     RigConfig config = small_virtual_rig();
     const auto of_the_show = next_frame(*make_source(config));
-    config.virtual_rig.set = 3;
+    config.virtual_rig.scene = 3;
     const auto of_set_3 = next_frame(*make_source(config)),
                again = next_frame(*make_source(config));
     ASSERT_TRUE(of_the_show && of_set_3 && again);

@@ -110,7 +110,7 @@ TEST(RigDaemon, AccountsForEveryFrameAtItsStop) {
 TEST(RigDaemon, SaysItsRateFromItsFirstWordOn) {
     const RigConfig config = small_rig();
     const RigDaemon daemon(config);
-    const StageReceiver onlooker(stage_of(daemon, config), StageReceiver::Purpose::look_on);
+    const StageReceiver onlooker(stage_of(daemon, config), StageReceiver::Purpose::observe);
     for (int i = 0; i < 6000 && !onlooker.status().rigs[0].connected; ++i)
         std::this_thread::sleep_for(10ms);
     EXPECT_EQ(onlooker.status().rigs[0].sync.rate_hz, config.source.rate_hz);

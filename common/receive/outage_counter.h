@@ -8,14 +8,13 @@
 
 namespace vantage {
 
-/// How often, and for how long in all, a rig that had been connected was not. Clocks come in as
-/// arguments.
-class OutageBook {
+/// Counts the outages of a rig and their total time. Clock readings are arguments. Not thread-safe.
+class OutageCounter {
   public:
-    /// To be told again and again. `heard`: the rig's last word; an outage counts from there.
+    /// Call it periodically. `heard`: the rig's last message, from which an outage counts.
     void note(bool connected, std::optional<MonotonicTime> heard);
 
-    /// Those that came to an end and the one that lasts.
+    /// Number of outages, including a current one.
     std::uint64_t outages() const { return outages_; }
     std::chrono::nanoseconds length(MonotonicTime now) const;
 
@@ -23,7 +22,7 @@ class OutageBook {
     bool was_connected_ = false;
     std::uint64_t outages_ = 0;
     std::chrono::nanoseconds ended_{0};
-    std::optional<MonotonicTime> since_;  ///< of the one that lasts
+    std::optional<MonotonicTime> since_;  ///< start of the current outage
 };
 
 }  // namespace vantage

@@ -1,4 +1,4 @@
-#include "common/receive/outage_book.h"
+#include "common/receive/outage_counter.h"
 
 #include <gtest/gtest.h>
 
@@ -9,15 +9,15 @@ using namespace std::chrono_literals;
 
 const MonotonicTime host_start = monotonic_from_ns(0) + 1h;
 
-TEST(OutageBook, ARigThatHasNotComeYetIsNoOutage) {
-    OutageBook book;
+TEST(OutageCounter, ARigBeforeItsFirstMessageIsNoOutage) {
+    OutageCounter book;
     book.note(false, std::nullopt);
     EXPECT_EQ(book.outages(), 0u);
     EXPECT_EQ(book.length(host_start), 0s);
 }
 
-TEST(OutageBook, CountsFromTheLastWordToTheNext) {
-    OutageBook book;
+TEST(OutageCounter, CountsFromTheLastMessageToTheNext) {
+    OutageCounter book;
     book.note(true, host_start);
     book.note(false, host_start + 1s);
     EXPECT_EQ(book.outages(), 1u);
@@ -28,8 +28,8 @@ TEST(OutageBook, CountsFromTheLastWordToTheNext) {
     EXPECT_EQ(book.length(host_start + 20s), 9s);
 }
 
-TEST(OutageBook, AddsOutagesUp) {
-    OutageBook book;
+TEST(OutageCounter, SumsOutages) {
+    OutageCounter book;
     for (const auto at : {0s, 10s}) {
         book.note(true, host_start + at);
         book.note(false, host_start + at);

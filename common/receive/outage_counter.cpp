@@ -1,8 +1,8 @@
-#include "common/receive/outage_book.h"
+#include "common/receive/outage_counter.h"
 
 namespace vantage {
 
-void OutageBook::note(bool connected, std::optional<MonotonicTime> heard) {
+void OutageCounter::note(bool connected, std::optional<MonotonicTime> heard) {
     if (was_connected_ && !connected) {
         ++outages_;
         since_ = heard;
@@ -14,7 +14,7 @@ void OutageBook::note(bool connected, std::optional<MonotonicTime> heard) {
     was_connected_ = connected;
 }
 
-std::chrono::nanoseconds OutageBook::length(MonotonicTime now) const {
+std::chrono::nanoseconds OutageCounter::length(MonotonicTime now) const {
     return ended_ + (since_ ? now - *since_ : std::chrono::nanoseconds(0));
 }
 
