@@ -13,8 +13,13 @@ enum class LogLevel { debug, info, warning, error };
 
 /// Writes one line to stderr, "hh:mm:ss.mmm name: level: text", by the clock on the wall; without
 /// the time where stderr is systemd's journal, which has it. One write(2) a line, so lines of
-/// several threads and processes never mix. Results go to stdout, everything else through here.
+/// several threads and processes never mix; control characters in the text, as a file name may
+/// have them, are written as escapes. Results go to stdout, everything else through here.
 void log_line(LogLevel level, std::string_view text);
+
+/// Writes a warning the first time that this process has one under this key, and says then that
+/// there will be no other: for a property that all pictures of a series or camera share.
+void log_warning_once(std::string_view key, std::string_view text);
 
 /// The sentence that a program ends with: as a log line of an error, but without the time.
 void say_error(std::string_view text);
