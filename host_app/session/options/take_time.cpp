@@ -1,7 +1,7 @@
 #include "host_app/session/options/take_time.h"
 
-#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/base/error.h"
 #include "common/base/time/pulse_grid.h"
@@ -12,7 +12,7 @@ namespace vantage {
 std::uint64_t pulse_of(const TakeReader& take, const std::string& text, std::uint64_t first,
                        std::uint64_t last) {
     const PulseGrid pulses(take.facts().pulse_rate_hz);
-    if (text.find(':') == std::string::npos) {
+    if (text.find_first_of(":;") == std::string::npos) {
         std::size_t used = 0;
         double seconds = -1;
         try {
@@ -27,14 +27,19 @@ std::uint64_t pulse_of(const TakeReader& take, const std::string& text, std::uin
                 text, take.facts().timecode);
         return first + static_cast<std::uint64_t>(std::llround(seconds * pulses.rate_hz()));
     }
-    constexpr std::uint64_t most_pulses = 100'000'000;
+    const TimecodeClock clock(take.facts().pulse_rate_hz);
+    const std::optional<TimeLabel> label = TimeLabel::parse(text);
+    if (!label)
+        fail(
+            "'{}' is no time code, such as {} (';' or ':' before the frame, which may be left out)",
+            text, take.facts().timecode);
+    if (const std::string why = clock.why_never(*label); !why.empty()) fail("{} {}", text, why);
+    constexpr std::uint64_t most_pulses = 1'000'000'000;
     if (last - first > most_pulses)
         fail("{} spans {} pulses, too many to look for {} in: say seconds after its beginning",
              take.path().string(), last - first, text);
     const int tai_offset_s = take.facts().tai_offset_s;
-    const TimecodeClock clock(take.facts().pulse_rate_hz);
-    for (std::uint64_t pulse = first; pulse <= last + 1; ++pulse)
-        if (clock.of_pulse(pulse, tai_offset_s) == text) return pulse;
+    if (const auto pulse = clock.find(*label, first, last + 1, tai_offset_s)) return *pulse;
     fail("{} is not in {}, which goes from {} to {}", text, take.path().string(),
          clock.of_pulse(first, tai_offset_s), clock.of_pulse(last, tai_offset_s));
 }
