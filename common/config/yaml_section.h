@@ -49,6 +49,11 @@ std::string read_yaml_text(const std::filesystem::path& path);
 /// Throws Error if the file is of another kind, or of a version that is not read.
 void require_kind(const YamlSection& top, const YamlKind& kind);
 
+/// Throws Error, naming the file: whose calibration it is where another program wrote it, else
+/// `reason`.
+[[noreturn]] void refuse_yaml(const std::filesystem::path& path, const std::string& text,
+                              const std::string& reason);
+
 /// What `read` makes of the file's top. Throws Error, naming the file, for whatever is wrong.
 template <class Read>
 auto read_yaml(const std::filesystem::path& path, const YamlKind& kind, Read read) {
@@ -61,12 +66,13 @@ auto read_yaml(const std::filesystem::path& path, const YamlKind& kind, Read rea
         require_kind(top, kind);
         return read(top);
     } catch (const cv::Exception& error) {
-        fail("{}: this is not YAML that OpenCV reads ({})", path.string(), error.err);
+        refuse_yaml(path, text, fmt::format("this is not YAML that OpenCV reads ({})", error.err));
     } catch (const Error& error) {
-        fail("{}: {}", path.string(), error.what());
+        refuse_yaml(path, text, error.what());
     } catch (const std::exception& error) {
         // OpenCV lets the standard library's own exceptions out where a file is badly damaged.
-        fail("{}: this is not YAML that OpenCV reads ({})", path.string(), error.what());
+        refuse_yaml(path, text,
+                    fmt::format("this is not YAML that OpenCV reads ({})", error.what()));
     }
 }
 

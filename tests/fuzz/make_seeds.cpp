@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/base/files/atomic_file.h"
+#include "common/calibration_forms/calibration_form.h"
 #include "common/config/calibration_file.h"
 #include "common/image/pfm.h"
 #include "common/image/png.h"
@@ -363,6 +364,14 @@ void write_calibration(const Seeds& seeds) {
     calibration.left = calibration.right = camera;
     calibration.right_from_left.translation().x() = -0.12;
     compute_rectification(calibration, 0);
+    // The first byte chooses the name, and a form that has several files is read one by one.
+    for (const CalibrationForm& form : calibration_forms()) {
+        if (!form.write) continue;
+        for (const FormText& text : form.write(calibration)) {
+            const char name = text.name == "cameras.txt" ? 2 : text.name == "images.txt" ? 3 : 0;
+            seeds.write("calibration_form", form.name + "-" + text.name, name + text.text);
+        }
+    }
     save_calibration(seeds.place("calibration_file", "good.yaml"), calibration,
                      {"2026-01-01", "seed", 0.2, 0.1, 12});
 }
@@ -425,8 +434,8 @@ void write_takes(const Seeds& seeds) {
 
 void write_frame_sets(const Seeds& seeds) {
     const RigBackground rig{"rig-a", "fnv1a64:0123456789abcdef",
-                           ColourImage(3, 4, cv::Vec4b(9, 8, 7, 6)), DepthImage(3, 4, 2.5f),
-                           cv::Mat1b(3, 4, uchar{200})};
+                            ColourImage(3, 4, cv::Vec4b(9, 8, 7, 6)), DepthImage(3, 4, 2.5f),
+                            cv::Mat1b(3, 4, uchar{200})};
     seeds.write("learnt_set", "one", encode_frame_set({tai_from_ns(1), {rig}}));
 }
 
