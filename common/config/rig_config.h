@@ -26,6 +26,7 @@ struct RigConfig {
         std::string left = "", right = "";  ///< single pictures, numbered ones (%d, %04d), shell
                                             ///< patterns, folders, or videos; right empty: side
                                             ///< by side
+        bool side_by_side = false;          ///< stated: 'left' holds both sides
         int first = 0;                      ///< first number of a pattern
         bool loop = true;
         // v4l2

@@ -54,7 +54,8 @@ void run_live_session(const LiveOptions& options) {
         options.show.desk_store(options.stage),
         &takes,
         "",
-        [&](StopSignal& signal) { return show.wait_for_rigs(from_s(options.wait_s), signal); }};
+        [&](StopSignal& signal) { return show.wait_for_rigs(from_s(options.wait_s), signal,
+                                                              options.while_waiting); }};
     session.run(stop);
 }
 

@@ -53,7 +53,7 @@ class Rendering {
         }
         for (const ViewSet& instant : earlier) {
             synthesiser_->set_views(instant.views);
-            synthesiser_->render(target);
+            synthesiser_->render_earlier(target);
         }
         synthesiser_->set_views(set.views);
     }
@@ -152,7 +152,7 @@ void render(const RenderOptions& options) {
     ColourImage shown = picture;
     if (options.source_map) shown = rendering.source_map(result["novelty"]).download();
 
-    write_colour_image(options.output, shown);
+    write_with_alpha(options.output, shown, covered_mask(picture));
     if (!options.difference.empty())
         write_colour_image(options.difference, difference_picture(picture, truth));
     print_result(result, options.json);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -57,7 +58,9 @@ class LiveShow {
     /// Waits until an instant with all rigs is ready; at the limit, goes on with those that are
     /// there and says which are missing. Throws Error, with every rig's state, if none came, and at
     /// once if all rigs refuse this host. False: the program was asked to stop meanwhile.
-    bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
+    /// `while_waiting` is called all the time; what it throws ends the wait.
+    bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop,
+                       const std::function<void()>& while_waiting = {});
 
     /// Of a take: until its first instant is ready. False: the program was asked to stop meanwhile.
     bool wait_for_first_frame_set(StopSignal& stop);
