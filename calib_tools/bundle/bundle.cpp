@@ -55,21 +55,23 @@ bool solve_bundle(Bundle& bundle, const BundleOptions& options) {
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_SCHUR;
     solver.max_num_iterations = options.max_iterations;
-    solver.num_threads = options.threads;
+    solver.num_threads = 1;
     solver.function_tolerance = 1e-10;
     solver.parameter_tolerance = 1e-10;
     solver.logging_type = ceres::SILENT;
-    // Boards meet only through cameras and rigs, so they are eliminated first.
+    // Boards meet only through cameras and rigs, so they are eliminated first. Ceres orders the
+    // blocks of a group by their addresses, so each group has blocks of one array only.
+    enum Group { of_boards, of_faces, of_rigs, of_lenses, of_cameras };
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     const auto add = [&](double* block, int group) {
         if (block) ordering->AddElementToGroup(block, group);
     };
-    for (std::size_t i = 0; i < bundle.boards.size(); ++i) add(problem.board_pose(i), 0);
-    for (std::size_t i = 0; i < bundle.faces.size(); ++i) add(problem.face_pose(i), 1);
-    for (std::size_t i = 0; i < bundle.rigs.size(); ++i) add(problem.rig_pose(i), 1);
+    for (std::size_t i = 0; i < bundle.boards.size(); ++i) add(problem.board_pose(i), of_boards);
+    for (std::size_t i = 0; i < bundle.faces.size(); ++i) add(problem.face_pose(i), of_faces);
+    for (std::size_t i = 0; i < bundle.rigs.size(); ++i) add(problem.rig_pose(i), of_rigs);
     for (std::size_t i = 0; i < bundle.cameras.size(); ++i) {
-        add(problem.lens(i), 1);
-        add(problem.camera_pose(i), 1);
+        add(problem.lens(i), of_lenses);
+        add(problem.camera_pose(i), of_cameras);
     }
     solver.linear_solver_ordering = ordering;
     // Steps that fail are part of the search; the result is judged by its residuals.

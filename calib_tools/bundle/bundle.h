@@ -84,10 +84,11 @@ struct Bundle {
 struct BundleOptions {
     double huber_px = 0;  ///< residuals beyond this count linearly; 0: plain least squares
     int max_iterations = 100;
-    int threads = 2;
 };
 
-/// Improves every part of the bundle that is marked to be solved, in place. Returns false if the
+/// Improves every part of the bundle that is marked to be solved, in place, on one thread: sums of
+/// several threads come in another order each time, and the same pictures have to lead to the same
+/// digits. Returns false if the
 /// problem could not be solved (not finite, or no progress from a hopeless start).
 bool solve_bundle(Bundle& bundle, const BundleOptions& options);
 

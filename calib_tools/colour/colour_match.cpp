@@ -78,7 +78,7 @@ void solve(ceres::Problem& problem) {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = 60;
-    options.num_threads = 2;
+    options.num_threads = 1;  // the same digits each time
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);

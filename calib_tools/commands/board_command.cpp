@@ -10,10 +10,12 @@
 #include "calib_tools/board/board_drawing.h"
 #include "calib_tools/board/board_file.h"
 #include "calib_tools/board/charuco_finder.h"
+#include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/board/paper.h"
 #include "common/base/cli/command.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/log.h"
 #include "common/image/image_file.h"
 
 namespace vantage {
@@ -79,6 +81,12 @@ void run(const PrintedBoardOptions& options) {
     if (!options.paper.empty()) paper = paper_named(options.paper);
     const std::vector<BoardPattern> faces = wanted_faces(options, paper);
     const BoardPattern& pattern = faces.front();
+    if (pattern.kind == BoardKind::chessboard && looks_alike_half_turned(pattern))
+        log_warning(
+            "a chessboard of {} inner corners looks the same when it is turned half round: `stage` "
+            "refuses it, and `stereo` cannot tell a picture that was turned. Take one with an even "
+            "and an odd side, such as {}x{}, or --kind charuco",
+            pattern.size_name(), pattern.columns + 1, pattern.rows);
     const int square_px =
         static_cast<int>(std::lround(pattern.square_m / 0.0254 * options.dots_per_inch));
     const double widest = (std::max(pattern.columns, pattern.rows) + 3) * square_px;

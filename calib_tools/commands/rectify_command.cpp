@@ -43,8 +43,7 @@ std::vector<double> numbers(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.
 void run(const RectifyOptions& options) {
     check_outputs(options);
     const StereoCalibration calibration = load_calibration(options.calibration);
-    const ColourImage raw_left = read_colour_image(options.left);
-    const ColourImage raw_right = read_colour_image(options.right);
+    const auto [raw_left, raw_right] = read_colour_pair(options.left, options.right);
 
     const EglContext context;
     const GlInfo gl = GlInfo::query();

@@ -97,9 +97,9 @@ RigSnapshot load_snapshot(const std::string& name, const std::filesystem::path& 
             fail("{} holds no pair with the number {}", folder.string(), instant);
         chosen = static_cast<std::size_t>(found - numbers.begin());
     }
-    RigSnapshot snapshot =
-        make_snapshot(name, calibration, read_colour_image(pairs.pairs[chosen].first),
-                      read_colour_image(pairs.pairs[chosen].second));
+    const auto [raw_left, raw_right] =
+        read_colour_pair(pairs.pairs[chosen].first, pairs.pairs[chosen].second);
+    RigSnapshot snapshot = make_snapshot(name, calibration, raw_left, raw_right);
     snapshot.calibration_date = load_calibration_record(file).date;
     return snapshot;
 }

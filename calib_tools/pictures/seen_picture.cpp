@@ -45,9 +45,10 @@ void judge(const GreyImage& grey, SeenPicture& picture) {
         static_cast<double>(cv::countNonZero(grey >= 254)) / static_cast<double>(grey.total());
 }
 
-void look_at(SeenPicture& picture, const CalibrationBoards& boards) {
+void look_at(SeenPicture& picture, const CalibrationBoards& boards, CodeRange range) {
     try {
-        picture = look_at_picture(to_grey(read_colour_image(picture.path)), picture.path, boards);
+        picture = look_at_picture(to_grey(read_colour_image(picture.path, range)), picture.path,
+                                  boards);
     } catch (const Error& error) {
         picture.sighting = {};
         picture.sighting.reason = error.what();
@@ -64,7 +65,8 @@ void refuse(SeenPicture& picture, std::string reason) {
 }
 
 /// Pictures of which the markers do not tell the board's layout have that which others tell.
-void settle_layout(std::vector<SeenPicture>& pictures, const CalibrationBoards& boards) {
+void settle_layout(std::vector<SeenPicture>& pictures, const CalibrationBoards& boards,
+                   const CodeRange& range) {
     if (!boards.is_one_board()) return;
     const bool described = boards.boards.front().starts_white();
     int others = 0, as_described = 0;
@@ -75,7 +77,7 @@ void settle_layout(std::vector<SeenPicture>& pictures, const CalibrationBoards& 
     CalibrationBoards settled = boards;
     settled.boards.front().legacy = !described;
     for (SeenPicture& p : pictures)
-        if (p.sighting.found() && !p.sighting.layout_is_sure) look_at(p, settled);
+        if (p.sighting.found() && !p.sighting.layout_is_sure) look_at(p, settled, range);
 }
 
 }  // namespace
@@ -140,6 +142,7 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
                                           const CalibrationBoards& boards) {
     std::vector<SeenPicture> pictures(files.size());
     for (std::size_t i = 0; i < files.size(); ++i) pictures[i].path = files[i];
+    const CodeRange codes = common_code_range(files, files.size());
     std::atomic<std::size_t> done{0};
     const std::size_t step = std::max<std::size_t>(10, files.size() / 10);
     std::vector<std::exception_ptr> failures(files.size());
@@ -149,7 +152,7 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
             for (int i = range.start; i < range.end; ++i) {
                 const auto index = static_cast<std::size_t>(i);
                 try {
-                    look_at(pictures[index], boards);
+                    look_at(pictures[index], boards, codes);
                 } catch (...) {
                     // A picture the library chokes on must not end the thread pool.
                     failures[index] = std::current_exception();
@@ -162,7 +165,7 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
         static_cast<double>(files.size()));
     for (const std::exception_ptr& failure : failures)
         if (failure) std::rethrow_exception(failure);
-    settle_layout(pictures, boards);
+    settle_layout(pictures, boards, codes);
     const PrintedBoard printed = printed_board_of(pictures);
     if (printed.inverted) log_info("the board is printed inverted, white for black");
     if (printed.legacy) log_info("the board has the layout of OpenCV before 4.6 (legacy)");

@@ -29,6 +29,36 @@ Eigen::Vector2d rectify_pixel(const CameraModel& camera, const Eigen::Matrix3d& 
             rectified.f_px * ray.y() / ray.z() + rectified.cy_px};
 }
 
+/// RMS of what one camera sees of a board whose pose another camera gives; the better of the two
+/// poses that a flat board may have there.
+double predicted_rms_px(const CameraModel& from, const BoardCorners& seen_from,
+                        const CameraModel& to, const BoardCorners& seen_to,
+                        const Pose& to_from_from) {
+    double best = std::numeric_limits<double>::max();
+    for (const Pose& pose : board_pose_candidates(from, seen_from)) {
+        double sum = 0;
+        for (const BoardCorner& corner : seen_to) {
+            const std::optional<Eigen::Vector2d> pixel =
+                to.project(to_from_from * (pose * corner.board_m));
+            const double miss = pixel ? (*pixel - corner.pixel).norm() : 1e4;
+            sum += miss * miss;
+        }
+        best = std::min(best, std::sqrt(sum / static_cast<double>(seen_to.size())));
+    }
+    return best;
+}
+
+/// What the camera would have seen standing on its head.
+BoardCorners of_half_turned_picture(const BoardCorners& corners, const CameraModel& camera,
+                                    bool numbered_anew) {
+    BoardCorners turned = corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const BoardCorner& place = corners[numbered_anew ? corners.size() - 1 - i : i];
+        turned[i].pixel = Eigen::Vector2d(camera.width_px - 1, camera.height_px - 1) - place.pixel;
+    }
+    return turned;
+}
+
 }  // namespace
 
 PairStart middle_pose(const std::vector<Pose>& poses) {
@@ -62,6 +92,38 @@ std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right) {
     }
     if (poses.empty()) return std::nullopt;
     return middle_pose(poses);
+}
+
+std::vector<OutlyingPair> outlying_pairs(const Bundle& left, const Bundle& right,
+                                         const PairStart& start, bool looks_alike_half_turned) {
+    const CameraModel &l = left.cameras.front().model, &r = right.cameras.front().model;
+    // Pairs of one instant are far below this, whatever the lens; a picture that is turned, or of
+    // another instant, is far above it.
+    constexpr double limit_share = 0.04;
+    const double limit_px = limit_share * l.width_px;
+    const Pose left_from_right = start.right_from_left.inverse();
+    const auto misfit = [&](const BoardCorners& in_left, const BoardCorners& in_right) {
+        return std::min(predicted_rms_px(l, in_left, r, in_right, start.right_from_left),
+                        predicted_rms_px(r, in_right, l, in_left, left_from_right));
+    };
+    const auto right_views = views_by_board(right, 0);
+    std::vector<OutlyingPair> outlying;
+    for (const auto& [board, left_view] : views_by_board(left, 0)) {
+        const auto right_view = right_views.find(board);
+        if (right_view == right_views.end()) continue;
+        const BoardCorners &in_left = left_view->corners, &in_right = right_view->second->corners;
+        OutlyingPair pair{board, OutlyingPair::Cause::other, misfit(in_left, in_right)};
+        if (pair.misfit_px < limit_px) continue;
+        const double right_turned =
+            misfit(in_left, of_half_turned_picture(in_right, r, looks_alike_half_turned));
+        const double left_turned =
+            misfit(of_half_turned_picture(in_left, l, looks_alike_half_turned), in_right);
+        if (std::min(left_turned, right_turned) < limit_px)
+            pair.cause = right_turned < left_turned ? OutlyingPair::Cause::right_half_turned
+                                                    : OutlyingPair::Cause::left_half_turned;
+        outlying.push_back(pair);
+    }
+    return outlying;
 }
 
 std::optional<Bundle> solve_pair(const Bundle& left, const Bundle& right, const PairStart& start) {

@@ -22,6 +22,21 @@ PairStart middle_pose(const std::vector<Pose>& poses);
 /// From the poses of the boards that both saw. Empty if none was seen by both.
 std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right);
 
+/// A pair whose pictures do not agree with the rig that most pairs agree on.
+struct OutlyingPair {
+    enum class Cause { left_half_turned, right_half_turned, other };
+    int board = 0;
+    Cause cause = Cause::other;
+    double misfit_px = 0;  ///< RMS of the corners of one side as the other side predicts them
+};
+
+/// Finds the pairs that contradict `start`: in neither direction does the board's pose in one
+/// picture predict its corners in the other. Where turning one of the pictures by 180 degrees mends
+/// that, it is the cause. `looks_alike_half_turned`: of the board, whose corners are numbered from
+/// the upper left of each picture then.
+std::vector<OutlyingPair> outlying_pairs(const Bundle& left, const Bundle& right,
+                                         const PairStart& start, bool looks_alike_half_turned);
+
 /// Both lenses, the relative pose and every board together: camera 0 is the left one, whose frame
 /// is the rig's and the world's; camera 1 the right one; board i belongs to instant i. Views that
 /// only one camera saw help that camera's lens. Empty if there is no finite solution.

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
-#include <set>
 #include <tuple>
 
 #include "calib_tools/board/chessboard_finder.h"
@@ -213,6 +213,81 @@ void align_numbering(std::vector<SeenPicture>& left, std::vector<SeenPicture>& r
     }
 }
 
+/// Cameras that are toed in have little in common where disparity is 0 at infinity: their rectified
+/// pictures are enlarged until no empty pixel is left. Empty where they are not.
+std::string doubt_rectification(const StereoCalibration& rig) {
+    const double scale = static_cast<double>(rig.rectified.width_px) / rig.left.width_px;
+    const double enlarged = rig.rectified.f_px / (scale * rig.left.fx_px);
+    const double apart_deg =
+        Eigen::AngleAxisd(Eigen::Matrix3d(rig.right_from_left.linear())).angle() * 180 /
+        std::numbers::pi;
+    constexpr double most_enlarged = 1.4, most_apart_deg = 10;
+    if (enlarged < most_enlarged && apart_deg < most_apart_deg) return {};
+    return fmt::format(
+        "the rectified pictures are enlarged {:.1f} times and the cameras look {:.0f} degrees apart: "
+        "much of what they see is cut off; mount them parallel, or keep more with --alpha 1",
+        enlarged, apart_deg);
+}
+
+/// Takes the pairs that contradict most others out of the series, each with its reason. Returns
+/// whether there is one.
+bool leave_out_outlying_pairs(const LensChoice& lenses, const PairStart& start,
+                              const BoardPattern& pattern, std::vector<SeenPicture>& left,
+                              std::vector<SeenPicture>& right, std::vector<Refusal>& rejected) {
+    const bool is_alike = pattern.kind == BoardKind::chessboard && looks_alike_half_turned(pattern);
+    const std::vector<OutlyingPair> outlying =
+        outlying_pairs(lenses.cameras[0], lenses.cameras[1], start, is_alike);
+    for (const OutlyingPair& pair : outlying) {
+        const auto at = static_cast<std::size_t>(pair.board);
+        const char* turned =
+            "is turned half round against the other pictures of its camera: turn it back";
+        switch (pair.cause) {
+            case OutlyingPair::Cause::left_half_turned:
+                rejected.push_back({left[at].name(), turned});
+                break;
+            case OutlyingPair::Cause::right_half_turned:
+                rejected.push_back({right[at].name(), turned});
+                break;
+            case OutlyingPair::Cause::other:
+                rejected.push_back(
+                    {pair_name(left[at], right[at]),
+                     fmt::format("contradicts the other pairs by {:.0f} px: the two pictures are "
+                                 "not of one instant, or the cameras moved on the rig",
+                                 pair.misfit_px)});
+        }
+        left[at].sighting.corners.clear();
+        right[at].sighting.corners.clear();
+    }
+    return !outlying.empty();
+}
+
+/// Counts the pairs that the solution rests on in both pictures, and names those of which too few
+/// corners were left.
+std::size_t name_pairs_without_corners(const Bundle& pair, const CameraViews& given,
+                                       const std::vector<RejectedView>& rejected,
+                                       RigCalibration& result) {
+    std::map<int, int> sides;
+    for (const BundleView& view : pair.views) ++sides[view.board];
+    std::size_t used = 0;
+    for (std::size_t i = 0; i < given.instants.size(); ++i) {
+        const int board = static_cast<int>(i);
+        const auto found = sides.find(board);
+        if (found != sides.end()) ++used;
+        const bool is_whole = found != sides.end() && found->second == 2;
+        const bool is_named =
+            std::any_of(rejected.begin(), rejected.end(),
+                        [&](const RejectedView& view) { return view.board == board; });
+        if (is_whole || is_named || given.instants[i].empty()) continue;
+        result.rejected.push_back(
+            {result.names[i],
+             found == sides.end()
+                 ? "is left out: fewer than 4 of its corners agree with the other pairs"
+                 : "is used on one side only: on the other fewer than 4 of its corners agree with "
+                   "the other pairs"});
+    }
+    return used;
+}
+
 }  // namespace
 
 CameraCalibration calibrate_camera(std::vector<SeenPicture> pictures, const BoardPattern& pattern,
@@ -238,6 +313,14 @@ CameraCalibration calibrate_camera(std::vector<SeenPicture> pictures, const Boar
     for (const RejectedView& view : bad)
         result.rejected.push_back(
             {result.names[static_cast<std::size_t>(view.board)], contradiction(view)});
+    for (std::size_t i = 0; i < views.instants.size(); ++i) {
+        const auto is_this = [&](const auto& view) { return view.board == static_cast<int>(i); };
+        if (!views.instants[i].empty() && std::none_of(bad.begin(), bad.end(), is_this) &&
+            std::none_of(result.bundle.views.begin(), result.bundle.views.end(), is_this))
+            result.rejected.push_back(
+                {result.names[i],
+                 "is left out: fewer than 4 of its corners agree with the other pictures"});
+    }
     result.trials = lenses.trials;
     result.views_used = result.bundle.views.size();
     require_enough(result.views_used, result.views_given, result.rejected, pattern, "pictures");
@@ -273,7 +356,7 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
             r.corners.clear();
         }
     }
-    const CameraViews left_views = views_of(left), right_views = views_of(right);
+    CameraViews left_views = views_of(left), right_views = views_of(right);
     require_enough(usable_count(left_views), result.views_given, result.rejected, pattern, "pairs");
     if (left_views.width_px != right_views.width_px ||
         left_views.height_px != right_views.height_px)
@@ -282,9 +365,8 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
             "at one resolution",
             left_views.width_px, left_views.height_px, right_views.width_px, right_views.height_px);
 
-    const LensChoice lenses = lenses_for({left_views, right_views}, options);
-    result.trials = lenses.trials;
-    const std::optional<PairStart> start = start_pair(lenses.cameras[0], lenses.cameras[1]);
+    LensChoice lenses = lenses_for({left_views, right_views}, options);
+    std::optional<PairStart> start = start_pair(lenses.cameras[0], lenses.cameras[1]);
     if (!start) fail("no pair shows the board to both cameras");
     const double distance =
         lenses.cameras[0]
@@ -296,6 +378,16 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
         fail("left and right pictures are of one and the same camera: the baseline is 0");
     if (!agrees(*start)) explain_disagreement(right_views, lenses.cameras[0], *start, pattern);
     refuse_impossible_rig(start->right_from_left);
+    if (leave_out_outlying_pairs(lenses, *start, pattern, left, right, result.rejected)) {
+        left_views = views_of(left);
+        right_views = views_of(right);
+        require_enough(usable_count(left_views), result.views_given, result.rejected, pattern,
+                       "pairs");
+        lenses = lenses_for({left_views, right_views}, options);
+        start = start_pair(lenses.cameras[0], lenses.cameras[1]);
+        if (!start) fail("no pair shows the board to both cameras");
+    }
+    result.trials = lenses.trials;
 
     std::optional<Bundle> pair = solve_pair(lenses.cameras[0], lenses.cameras[1], *start);
     std::vector<RejectedView> bad;
@@ -307,9 +399,7 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
         result.rejected.push_back(
             {result.names[static_cast<std::size_t>(view.board)], contradiction(view)});
     result.bundle = *pair;
-    std::set<int> used;
-    for (const BundleView& view : pair->views) used.insert(view.board);
-    result.views_used = used.size();
+    result.views_used = name_pairs_without_corners(*pair, left_views, bad, result);
     require_enough(result.views_used, result.views_given, result.rejected, pattern, "pairs");
     result.uncertainty = bundle_uncertainty(*pair);
     const double alone_sigma_px =
@@ -335,6 +425,8 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
         result.uncertainty.cameras[1].translation_m.cwiseProduct(translation.normalized()).norm();
     result.doubts = doubts_of(*pair, result.uncertainty,
                               {{"left", "right"}, chosen_held_out_px(lenses), alone_sigma_px});
+    if (std::string sentence = doubt_rectification(frame); !sentence.empty())
+        result.doubts.push_back(std::move(sentence));
     for (const int side : {0, 1})
         for (std::string& sentence : missing_pictures(*pair, side, side == 0 ? "left" : "right"))
             result.advice.push_back(std::move(sentence));

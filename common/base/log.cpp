@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <deque>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include <sys/stat.h>
@@ -63,6 +64,25 @@ RecentLines& recent() {
     return lines;
 }
 
+/// A line stays one: a file name may hold a line break, or what a terminal obeys.
+std::string on_one_line(std::string_view text) {
+    std::string line;
+    line.reserve(text.size());
+    for (const char c : text) {
+        constexpr unsigned char first_printable = 0x20, del = 0x7f;
+        const auto code = static_cast<unsigned char>(c);
+        if (code >= first_printable && code != del)
+            line += c;
+        else if (c == '\n')
+            line += "\\n";
+        else if (c == '\t')
+            line += ' ';
+        else
+            line += fmt::format("\\x{:02x}", code);
+    }
+    return line;
+}
+
 void remember(LogLevel level, std::string_view text) {
     RecentLines& all = recent();
     std::string line = fmt::format("{}{}{}", time_of_day(), level_name(level), text);
@@ -91,8 +111,19 @@ LogLevel log_threshold() {
 }
 
 void log_line(LogLevel level, std::string_view text) {
-    remember(level, text);
-    write_line(stderr_is_the_journal() ? "" : time_of_day(), level, text);
+    const std::string line = on_one_line(text);
+    remember(level, line);
+    write_line(stderr_is_the_journal() ? "" : time_of_day(), level, line);
+}
+
+void log_warning_once(std::string_view key, std::string_view text) {
+    static std::mutex mutex;
+    static std::set<std::string, std::less<>> known;
+    {
+        const std::lock_guard lock(mutex);
+        if (!known.emplace(key).second) return;
+    }
+    log_warning("{}", text);
 }
 
 std::vector<std::string> recent_log_lines() {
@@ -101,6 +132,6 @@ std::vector<std::string> recent_log_lines() {
     return {all.lines.begin(), all.lines.end()};
 }
 
-void say_error(std::string_view text) { write_line("", LogLevel::error, text); }
+void say_error(std::string_view text) { write_line("", LogLevel::error, on_one_line(text)); }
 
 }  // namespace vantage

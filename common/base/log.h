@@ -13,8 +13,13 @@ enum class LogLevel { debug, info, warning, error };
 
 /// Writes one line to stderr: "hh:mm:ss.mmm name: level: text", in local time. The time is omitted
 /// where stderr is systemd's journal, which adds its own. Each line is one write(2), so that lines
-/// of several threads and processes never mix. Results go to stdout, everything else through here.
+/// of several threads and processes never mix. Control characters in the text, which a file name
+/// may contain, are written as escapes. Results go to stdout, everything else through here.
 void log_line(LogLevel level, std::string_view text);
+
+/// Writes a warning only the first time that it is given with this key, and adds that it will not be
+/// repeated. For a property that all images of a series or of a camera share.
+void log_warning_once(std::string_view key, std::string_view text);
 
 /// Writes the sentence that a program ends with: an error line without the time.
 void say_error(std::string_view text);

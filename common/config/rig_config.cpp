@@ -20,6 +20,15 @@ void read_source(TomlTable& table, RigConfig::Source& source) {
     table.read("right", right);
     source.left = left.string();
     source.right = right.string();
+    table.read("side_by_side", source.side_by_side);
+    if (source.side_by_side && !source.right.empty())
+        table.refuse("side_by_side", "means that 'left' holds both sides: leave 'right' out");
+    if (source.kind == "files" && !source.left.empty() && source.right.empty() &&
+        !source.side_by_side)
+        table.refuse("left",
+                     "names one side only: name the other camera's pictures with 'right', or say "
+                     "side_by_side = true where each picture holds the left side in its left half "
+                     "and the right side in its right half");
     table.read("first", source.first, {0});
     table.read("loop", source.loop);
     table.read("left_device", source.left_device);

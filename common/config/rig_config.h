@@ -24,8 +24,8 @@ struct RigConfig {
         double noise_sigma = 0;  ///< sensor noise, 8-bit grey levels
         // files
         std::string left = "", right = "";  ///< single images, numbered ones (%d, %04d), shell
-                                            ///< patterns, folders or videos; right empty: side by
-                                            ///< side
+                                            ///< patterns, folders or videos
+        bool side_by_side = false;          ///< `left` holds both images side by side
         int first = 0;                      ///< first number of a pattern
         bool loop = true;
         // v4l2

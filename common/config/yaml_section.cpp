@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/files/atomic_file.h"
+#include "common/calibration_forms/calibration_form.h"
 #include "common/geometry/opencv_bridge.h"
 
 namespace vantage {
@@ -84,6 +85,14 @@ std::string read_yaml_text(const std::filesystem::path& path) {
         fail("{}: byte {} is a control character; a calibration is a text file", path.string(),
              at - text.begin());
     return text;
+}
+
+void refuse_yaml(const std::filesystem::path& path, const std::string& text,
+                 const std::string& reason) {
+    // A damaged file of Vantage's own says what is damaged.
+    const bool is_own = text.find("\"vantage ") != std::string::npos;
+    const std::string foreign = is_own ? "" : foreign_calibration_sentence(path, text);
+    fail("{}: {}", path.string(), foreign.empty() ? reason : foreign);
 }
 
 void require_kind(const YamlSection& top, const YamlKind& kind) {

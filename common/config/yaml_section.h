@@ -49,6 +49,11 @@ std::string read_yaml_text(const std::filesystem::path& path);
 /// Throws Error if the file has another kind or an unknown version.
 void require_kind(const YamlSection& top, const YamlKind& kind);
 
+/// Throws Error with the file's name. If another program wrote the file, the error names that program
+/// and the command that imports it; otherwise it gives `reason`.
+[[noreturn]] void refuse_yaml(const std::filesystem::path& path, const std::string& text,
+                              const std::string& reason);
+
 /// Parses a file and returns the result of `read` for its top. Throws Error naming the file.
 template <class Read>
 auto read_yaml(const std::filesystem::path& path, const YamlKind& kind, Read read) {
@@ -61,12 +66,14 @@ auto read_yaml(const std::filesystem::path& path, const YamlKind& kind, Read rea
         require_kind(top, kind);
         return read(top);
     } catch (const cv::Exception& error) {
-        fail("{}: this is not YAML that OpenCV can read ({})", path.string(), error.err);
+        refuse_yaml(path, text,
+                    fmt::format("this is not YAML that OpenCV can read ({})", error.err));
     } catch (const Error& error) {
-        fail("{}: {}", path.string(), error.what());
+        refuse_yaml(path, text, error.what());
     } catch (const std::exception& error) {
         // OpenCV throws the standard library's exceptions for some badly damaged files.
-        fail("{}: this is not YAML that OpenCV can read ({})", path.string(), error.what());
+        refuse_yaml(path, text,
+                    fmt::format("this is not YAML that OpenCV can read ({})", error.what()));
     }
 }
 

@@ -40,8 +40,14 @@ cv::Mat1f read_pfm(const std::filesystem::path& path) {
         fail("{} is {}x{}; pictures up to {} pixels a side are taken", path.string(), width, height,
              max_image_side_px);
     // A file that ends with the scale has no samples at all, and no place where they would start.
-    const std::size_t start = in.eof() ? bytes.size() : static_cast<std::size_t>(in.tellg()) + 1;
+    std::size_t start = in.eof() ? bytes.size() : static_cast<std::size_t>(in.tellg()) + 1;
     const std::size_t row_bytes = static_cast<std::size_t>(width) * sizeof(float);
+    // Writers on Windows end the header's lines with CR LF. A sample may begin with LF too, so the
+    // file's size decides.
+    const std::size_t whole = row_bytes * static_cast<std::size_t>(height);
+    if (start < bytes.size() && bytes[start - 1] == std::byte{'\r'} &&
+        bytes[start] == std::byte{'\n'} && bytes.size() - start == whole + 1)
+        ++start;
     if (bytes.size() < start ||
         bytes.size() - start != row_bytes * static_cast<std::size_t>(height))
         fail("{} should hold {} bytes of samples for {}x{} and holds {}", path.string(),

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include <fnmatch.h>
 #include <glob.h>
 
 #include "common/base/error.h"
@@ -40,26 +41,73 @@ std::vector<long long> numbers_in(const std::filesystem::path& file) {
 
 void sort_naturally(std::vector<std::filesystem::path>& files) {
     std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-        const auto key_a = natural_key(a.filename().string());
-        const auto key_b = natural_key(b.filename().string());
-        return std::tie(key_a, a) < std::tie(key_b, b);
+        const std::string name_a = a.filename().string(), name_b = b.filename().string();
+        return name_a == name_b ? a < b : is_naturally_before(name_a, name_b);
     });
 }
 
-}  // namespace
+using Paths = std::vector<std::filesystem::path>;
 
-std::vector<std::filesystem::path> expand_pictures(const std::string& pattern) {
-    std::error_code ignored;
-    const std::string shell_pattern =
-        std::filesystem::is_directory(pattern, ignored) ? pattern + "/*" : pattern;
+bool is_hidden(const std::filesystem::path& file) {
+    return file.filename().string().starts_with('.');
+}
+
+/// The files of a folder, of whatever name, that `is_wanted`.
+Paths files_in(const std::filesystem::path& folder, auto is_wanted) {
+    Paths files;
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+        std::error_code ignored;
+        if (entry.is_regular_file(ignored) && is_wanted(entry.path()))
+            files.push_back(entry.path());
+    }
+    if (error) fail("cannot list the folder {}: {}", folder.string(), error.message());
+    return files;
+}
+
+/// The files that a pattern of the shell matches in each of its parts.
+Paths files_by_glob(const std::string& pattern) {
     glob_t found{};
-    const int status = ::glob(shell_pattern.c_str(), GLOB_TILDE, nullptr, &found);
-    std::vector<std::filesystem::path> files;
+    const int status = ::glob(pattern.c_str(), GLOB_TILDE, nullptr, &found);
+    Paths files;
+    std::error_code ignored;
     if (status == 0)
         for (std::size_t i = 0; i < found.gl_pathc; ++i)
             if (std::filesystem::is_regular_file(found.gl_pathv[i], ignored))
                 files.emplace_back(found.gl_pathv[i]);
     ::globfree(&found);
+    return files;
+}
+
+/// A name that exists is that file or folder, whatever characters it has. Else the last part is the
+/// pattern, in a folder that exists under the name before it.
+Paths files_named(const std::string& name) {
+    const std::filesystem::path path(name);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        return files_in(path, [](const auto& file) { return !is_hidden(file); });
+    if (std::filesystem::is_regular_file(path, ignored)) return {path};
+    const std::filesystem::path folder = path.parent_path();
+    if (!std::filesystem::is_directory(folder.empty() ? "." : folder, ignored))
+        return files_by_glob(name);
+    const std::string pattern = path.filename().string();
+    Paths files = files_in(folder.empty() ? "." : folder, [&](const auto& file) {
+        return ::fnmatch(pattern.c_str(), file.filename().c_str(), FNM_PERIOD) == 0;
+    });
+    if (folder.empty())
+        for (std::filesystem::path& file : files) file = file.filename();
+    return files;
+}
+
+}  // namespace
+
+bool is_naturally_before(const std::string& a, const std::string& b) {
+    const auto key_a = natural_key(a), key_b = natural_key(b);
+    return key_a == key_b ? a < b : key_a < key_b;
+}
+
+std::vector<std::filesystem::path> expand_pictures(const std::string& pattern) {
+    Paths files = files_named(pattern);
     if (files.empty()) fail("no file matches '{}'", pattern);
     if (files.size() > max_pictures)
         fail("'{}' matches {} files; up to {} are taken", pattern, files.size(), max_pictures);

@@ -7,9 +7,13 @@
 
 namespace vantage {
 
-/// Files that match a shell pattern ('left*.png'), or all files of a folder; in natural order
-/// (left2 before left10). Throws Error if nothing matches.
+/// The file or all files of the folder of this name; where neither exists, the files whose names
+/// match its last part as a shell pattern ('left*.png'). In natural order. Throws Error if there is
+/// none.
 std::vector<std::filesystem::path> expand_pictures(const std::string& pattern);
+
+/// Natural order, in which numbers within a text count as numbers: left2 before left10.
+bool is_naturally_before(const std::string& a, const std::string& b);
 
 /// The files of several patterns, each file once: a shell that expands a pattern itself hands over
 /// the files one by one.

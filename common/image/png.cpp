@@ -7,6 +7,7 @@
 #include <spng.h>
 
 #include "common/base/error.h"
+#include "common/image/exif_orientation.h"
 #include "common/image/picture_size.h"
 
 namespace vantage {
@@ -45,7 +46,7 @@ cv::Mat without_alpha(const cv::Mat& image) {
 
 }  // namespace
 
-cv::Mat decode_png(std::span<const std::byte> bytes) {
+DecodedPng decode_png(std::span<const std::byte> bytes) {
     const Context context = new_context(0);
     require(spng_set_png_buffer(context.get(), bytes.data(), bytes.size()));
     spng_ihdr head{};
@@ -70,25 +71,31 @@ cv::Mat decode_png(std::span<const std::byte> bytes) {
                   CV_MAKETYPE(is_wide ? CV_16U : CV_8U, channels));
     require(
         spng_decode_image(context.get(), image.data, image.total() * image.elemSize(), format, 0));
-    return without_alpha(image);
+    DecodedPng decoded{without_alpha(image), 1};
+    if (spng_exif exif{}; spng_get_exif(context.get(), &exif) == 0)
+        decoded.orientation = exif_orientation(std::as_bytes(std::span(exif.data, exif.length)));
+    return decoded;
 }
 
 std::vector<std::byte> encode_png(const cv::Mat& image) {
     const bool is_grey = image.type() == CV_8UC1 || image.type() == CV_16UC1;
-    if (!is_grey && image.type() != CV_8UC3) fail("a PNG does not take this picture");
+    const bool has_alpha = image.type() == CV_8UC4;
+    if (!is_grey && !has_alpha && image.type() != CV_8UC3) fail("a PNG does not take this picture");
     const cv::Mat whole = image.isContinuous() ? image : image.clone();
     const Context context = new_context(SPNG_CTX_ENCODER);
     spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
     spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, compression_level);
     constexpr int bits_of_byte = 8;
-    spng_ihdr head{.width = static_cast<std::uint32_t>(whole.cols),
-                   .height = static_cast<std::uint32_t>(whole.rows),
-                   .bit_depth = static_cast<std::uint8_t>(bits_of_byte * whole.elemSize1()),
-                   .color_type = static_cast<std::uint8_t>(is_grey ? SPNG_COLOR_TYPE_GRAYSCALE
-                                                                   : SPNG_COLOR_TYPE_TRUECOLOR),
-                   .compression_method = 0,
-                   .filter_method = 0,
-                   .interlace_method = SPNG_INTERLACE_NONE};
+    spng_ihdr head{
+        .width = static_cast<std::uint32_t>(whole.cols),
+        .height = static_cast<std::uint32_t>(whole.rows),
+        .bit_depth = static_cast<std::uint8_t>(bits_of_byte * whole.elemSize1()),
+        .color_type = static_cast<std::uint8_t>(is_grey     ? SPNG_COLOR_TYPE_GRAYSCALE
+                                                : has_alpha ? SPNG_COLOR_TYPE_TRUECOLOR_ALPHA
+                                                            : SPNG_COLOR_TYPE_TRUECOLOR),
+        .compression_method = 0,
+        .filter_method = 0,
+        .interlace_method = SPNG_INTERLACE_NONE};
     spng_set_ihdr(context.get(), &head);
     if (const int result =
             spng_encode_image(context.get(), whole.data, whole.total() * whole.elemSize(),

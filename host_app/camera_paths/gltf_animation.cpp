@@ -4,13 +4,16 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <set>
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/log.h"
 #include "host_app/camera_paths/camera_path_file.h"
 
 extern "C" {
@@ -144,39 +147,46 @@ class GltfFile {
 /// The camera's way through a file's animations.
 class GltfCamera {
   public:
-    GltfCamera(GltfFile& gltf, const std::filesystem::path& file) : json_(gltf.json()) {
+    GltfCamera(GltfFile& gltf, const std::filesystem::path& file)
+        : json_(gltf.json()), file_(file) {
         const Json& nodes = json_.at("nodes");
+        std::string others;
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             for (const Json& child : nodes[i].value("children", Json::array()))
                 parents_[child.get<std::size_t>()] = i;
-            if (node_ || !nodes[i].contains("camera")) continue;
+            if (!nodes[i].contains("camera")) continue;
             const auto camera = nodes[i].at("camera").get<std::size_t>();
-            if (!json_.at("cameras").at(camera).contains("perspective")) continue;
+            if (node_ || !json_.at("cameras").at(camera).contains("perspective")) {
+                others += (others.empty() ? "" : ", ") + name_of(nodes[i], "node", i);
+                continue;
+            }
             node_ = i;
             camera_ = camera;
         }
         if (!node_) fail("{} has no perspective camera", file.string());
-        for (const Json& animation : json_.value("animations", Json::array()))
-            for (const Json& channel : animation.at("channels"))
-                take(gltf, animation, channel, file);
+        if (!others.empty())
+            log_warning("{} has several cameras: {} is taken and {} is left out", file.string(),
+                        name_of(nodes[*node_], "node", *node_), others);
+        take_animations(gltf);
     }
 
     double end_s() const { return end_s_; }
 
     Pose at(double time_s) const {
-        Pose world_from_node = Pose::Identity();
+        Eigen::Affine3d world_from_node = Eigen::Affine3d::Identity();
         std::size_t node = *node_;
         // No longer than there are nodes, whatever a file says.
         for (std::size_t i = 0; i < json_.at("nodes").size(); ++i) {
-            world_from_node = pose_of(node, time_s) * world_from_node;
+            world_from_node = transform_of(node, time_s) * world_from_node;
             const auto parent = parents_.find(node);
             if (parent == parents_.end()) break;
             node = parent->second;
         }
-        world_from_node.linear() =
-            Eigen::Quaterniond(world_from_node.linear()).normalized().toRotationMatrix() *
-            gltf_from_opencv();
-        return world_from_node;
+        // A scale above the camera moves its eye; the camera itself is never scaled.
+        Pose pose = Pose::Identity();
+        pose.translation() = world_from_node.translation();
+        pose.linear() = rotation_of(world_from_node.linear()) * gltf_from_opencv();
+        return pose;
     }
     double field_of_view_rad(double time_s, double usual_aspect) const {
         const Json& lens = json_.at("cameras").at(camera_).at("perspective");
@@ -185,6 +195,82 @@ class GltfCamera {
     }
 
   private:
+    /// The rotation nearest to a matrix that may scale and shear. Throws Error for a mirror.
+    Eigen::Matrix3d rotation_of(const Eigen::Matrix3d& matrix) const {
+        const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix,
+                                                    Eigen::ComputeFullU | Eigen::ComputeFullV);
+        if (!(svd.singularValues()[2] > 0) || !(matrix.determinant() > 0))
+            fail("{}: a node above the camera mirrors it or flattens it; apply its scale",
+                 file_.string());
+        return svd.matrixU() * svd.matrixV().transpose();
+    }
+
+    static std::string name_of(const Json& thing, const char* kind, std::size_t number) {
+        const std::string name = thing.value("name", "");
+        return name.empty() ? fmt::format("{} {}", kind, number) : fmt::format("'{}'", name);
+    }
+
+    /// What a channel moves, such as "translation 3"; empty for what does not move the camera.
+    std::string moved_by(const Json& channel) const {
+        const Json& target = channel.at("target");
+        const auto path = target.at("path").get<std::string>();
+        if (path == "pointer")
+            return target.at("extensions")
+                               .at("KHR_animation_pointer")
+                               .at("pointer")
+                               .get<std::string>() ==
+                           fmt::format("/cameras/{}/perspective/yfov", camera_)
+                       ? "lens"
+                       : "";
+        if (path != "rotation" && path != "translation" && path != "scale") return "";
+        const auto node = target.at("node").get<std::size_t>();
+        return moves_camera(node) ? fmt::format("{} {}", path, node) : "";
+    }
+
+    /// The camera's node and those above it.
+    bool moves_camera(std::size_t wanted) const {
+        std::size_t node = *node_;
+        for (std::size_t i = 0; i < json_.at("nodes").size(); ++i) {
+            if (node == wanted) return true;
+            const auto parent = parents_.find(node);
+            if (parent == parents_.end()) return false;
+            node = parent->second;
+        }
+        return false;
+    }
+
+    /// Programs write one animation for each object, or one for each take. Animations that move
+    /// different things belong together; one that moves again what is moved already is another
+    /// take.
+    void take_animations(GltfFile& gltf) {
+        std::set<std::string> moved;
+        std::string taken, left_out;
+        const Json animations = json_.value("animations", Json::array());
+        for (std::size_t i = 0; i < animations.size(); ++i) {
+            const std::string name = name_of(animations[i], "animation", i);
+            std::set<std::string> own;
+            bool is_other_take = false;
+            for (const Json& channel : animations[i].at("channels")) {
+                const std::string what = moved_by(channel);
+                if (what.empty()) continue;
+                is_other_take = is_other_take || moved.contains(what);
+                own.insert(what);
+            }
+            if (own.empty()) continue;
+            std::string& list = is_other_take ? left_out : taken;
+            list += (list.empty() ? "" : ", ") + name;
+            if (is_other_take) continue;
+            moved.merge(own);
+            for (const Json& channel : animations[i].at("channels"))
+                if (!moved_by(channel).empty()) take(gltf, animations[i], channel, file_);
+        }
+        if (!left_out.empty())
+            log_warning(
+                "{} has several takes of the camera: {} is taken and {} is left out; export the "
+                "wanted one alone for another",
+                file_.string(), taken, left_out);
+    }
+
     void take(GltfFile& gltf, const Json& animation, const Json& channel,
               const std::filesystem::path& file) {
         const Json& target = channel.at("target");
@@ -193,8 +279,7 @@ class GltfCamera {
             path == "pointer" &&
             target.at("extensions").at("KHR_animation_pointer").at("pointer").get<std::string>() ==
                 fmt::format("/cameras/{}/perspective/yfov", camera_);
-        const bool is_turn = path == "rotation", is_way = path == "translation";
-        if (!is_lens && !is_turn && !is_way) return;
+        const bool is_turn = path == "rotation";
         const Json& sampler = animation.at("samplers").at(channel.at("sampler").get<std::size_t>());
         const std::string kind = sampler.value("interpolation", "LINEAR");
         if (kind != "LINEAR" && kind != "STEP")
@@ -217,45 +302,45 @@ class GltfCamera {
         if (is_lens)
             lens_ = std::move(taken);
         else
-            (is_turn ? turns_ : ways_)[target.at("node").get<std::size_t>()] = std::move(taken);
+            (is_turn           ? turns_
+             : path == "scale" ? scales_
+                               : ways_)[target.at("node").get<std::size_t>()] = std::move(taken);
     }
 
-    Pose pose_of(std::size_t number, double time_s) const {
+    Eigen::Affine3d transform_of(std::size_t number, double time_s) const {
         const Json& node = json_.at("nodes").at(number);
-        Pose pose = Pose::Identity();
+        Eigen::Affine3d transform = Eigen::Affine3d::Identity();
         if (node.contains("matrix")) {
-            Eigen::Matrix4d matrix;
             for (std::size_t i = 0; i < 16; ++i)
-                matrix.data()[i] = node.at("matrix").at(i).get<double>();
-            pose.linear() = matrix.topLeftCorner<3, 3>();
-            for (int axis = 0; axis < 3; ++axis)
-                if (pose.linear().col(axis).norm() > 0) pose.linear().col(axis).normalize();
-            pose.translation() = matrix.topRightCorner<3, 1>();
+                transform.matrix().data()[i] = node.at("matrix").at(i).get<double>();
+            return transform;
         }
-        const auto numbers = [&](const char* key, Eigen::Vector4d value, std::size_t width) {
+        const auto value = [&](const char* key, const std::map<std::size_t, Channel>& channels,
+                               Eigen::Vector4d usual, std::size_t width) {
+            if (const auto channel = channels.find(number); channel != channels.end())
+                return channel->second.at(time_s, width == 4);
             if (node.contains(key))
                 for (std::size_t i = 0; i < width; ++i)
-                    value[static_cast<Eigen::Index>(i)] = node.at(key).at(i).get<double>();
-            return value;
+                    usual[static_cast<Eigen::Index>(i)] = node.at(key).at(i).get<double>();
+            return usual;
         };
-        if (const auto way = ways_.find(number); way != ways_.end())
-            pose.translation() = way->second.at(time_s, false).head<3>();
-        else if (node.contains("translation"))
-            pose.translation() = numbers("translation", Eigen::Vector4d::Zero(), 3).head<3>();
-        if (const auto turn = turns_.find(number); turn != turns_.end())
-            pose.linear() = Eigen::Quaterniond(turn->second.at(time_s, true)).toRotationMatrix();
-        else if (node.contains("rotation"))
-            pose.linear() = Eigen::Quaterniond(numbers("rotation", Eigen::Vector4d::UnitW(), 4))
-                                .normalized()
-                                .toRotationMatrix();
-        return pose;
+        const Eigen::Vector4d turn = value("rotation", turns_, Eigen::Vector4d::UnitW(), 4);
+        transform.translate(
+            Eigen::Vector3d(value("translation", ways_, Eigen::Vector4d::Zero(), 3).head<3>()));
+        transform.rotate(Eigen::Quaterniond(turn).normalized());
+        // A camera's own scale moves nothing but what is below it.
+        if (number != *node_)
+            transform.scale(
+                Eigen::Vector3d(value("scale", scales_, Eigen::Vector4d::Ones(), 3).head<3>()));
+        return transform;
     }
 
     const Json& json_;
+    std::filesystem::path file_;
     std::optional<std::size_t> node_;
     std::size_t camera_ = 0;
     std::map<std::size_t, std::size_t> parents_;
-    std::map<std::size_t, Channel> ways_, turns_;  ///< by node
+    std::map<std::size_t, Channel> ways_, turns_, scales_;  ///< by node
     std::optional<Channel> lens_;
     double end_s_ = 0;
 };

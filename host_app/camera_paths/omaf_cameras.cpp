@@ -1,3 +1,4 @@
+#include <cctype>
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +8,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/log.h"
 #include "host_app/camera_paths/camera_path_file.h"
 #include "host_app/camera_paths/omaf_camera.h"
 
@@ -26,6 +28,31 @@ Eigen::Matrix3d omaf_from_opencv() {
     Eigen::Matrix3d axes;
     axes << 0, 0, 1, -1, 0, 0, 0, -1, 0;
     return axes;
+}
+
+/// The axes that an MPEG view set is told in. Its poses are of cameras with the same axes as its
+/// world: turned by nothing, a camera looks along the world's forward axis.
+struct AxialSystem {
+    Eigen::Matrix3d from_stage, from_opencv;
+};
+
+/// By its name in the file (RVS: Axial_system); OMAF where the file states none. Throws Error.
+AxialSystem axial_system(const nlohmann::json& json, const std::filesystem::path& file) {
+    std::string name = json.value("Axial_system", "OMAF");
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (name == "OMAF") return {omaf_from_stage(), omaf_from_opencv()};
+    const Eigen::Matrix3d turned_about_x = Eigen::Vector3d(1, -1, -1).asDiagonal();
+    const Eigen::Matrix3d same = Eigen::Matrix3d::Identity();
+    // x right, y up, z back, as the stage; or x right, y down, z forward, as OpenCV's cameras.
+    const bool is_opengl = name == "OPENGL";
+    if (!is_opengl && name != "OPENCV" && name != "COLMAP" && name != "VSRS")
+        fail(
+            "{} is in the axial system '{}', which is not known: OMAF, OPENGL, OPENCV, COLMAP and "
+            "VSRS are",
+            file.string(), name);
+    log_info("{} is in the axial system {} and is converted to the stage's axes", file.string(),
+             name);
+    return is_opengl ? AxialSystem{same, turned_about_x} : AxialSystem{turned_about_x, same};
 }
 
 /// Yaw, pitch and roll in degrees: about z, then y, then x.
@@ -88,17 +115,18 @@ CameraPath omaf_path_of(const std::string& text, const std::filesystem::path& fi
     try {
         const nlohmann::json json = nlohmann::json::parse(text);
         require_cameras(json.at("cameras").size(), file);
+        const AxialSystem axes = axial_system(json, file);
         for (const nlohmann::json& camera : json.at("cameras")) {
             if (camera.at("Projection").get<std::string>() != "Perspective")
                 fail("{}: the camera {} is {}, and only Perspective is flown", file.string(),
                      camera.at("Name").get<std::string>(),
                      camera.at("Projection").get<std::string>());
             CameraState state;
-            state.world_from_camera.linear() = omaf_from_stage().transpose() *
+            state.world_from_camera.linear() = axes.from_stage.transpose() *
                                                turned_by(vector_of(camera, "Rotation")) *
-                                               omaf_from_opencv();
+                                               axes.from_opencv;
             state.world_from_camera.translation() =
-                omaf_from_stage().transpose() * vector_of(camera, "Position");
+                axes.from_stage.transpose() * vector_of(camera, "Position");
             if (!state.world_from_camera.matrix().allFinite())
                 fail("{}: a camera has no place", file.string());
             path.size_px = {camera.at("Resolution").at(0).get<int>(),

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/base/child_log.h"
 #include "common/base/child_process.h"
 #include "common/base/cli/command.h"
 #include "common/base/error.h"
@@ -49,14 +50,14 @@ nlohmann::json ask_program(const std::filesystem::path& folder, const std::strin
             {.program = program_beside(name), .arguments = arguments, .out = out, .err = err})
             .wait();
     if (status != 0) {
-        std::string message = read_text_file(err, max_output_bytes);
-        message.erase(message.find_last_not_of('\n') + 1);
-        message.erase(0, message.find_last_of('\n') + 1);
-        // Our programs end with a whole sentence.
-        const std::string head = name + ": error: ";
-        if (message.starts_with(head)) fail("{}", message.substr(head.size()));
-        fail("{} {} failed: {}", name, arguments.front(), message);
+        const std::string said = last_sentence_of(err);
+        // What another program ends with is a sentence for itself.
+        if (!said.empty()) fail("{}", said);
+        fail("{} {} failed with status {}", name, arguments.front(), status);
     }
+    // Of the pictures that a person gave, such as their orientation; a rig's own log repeats them.
+    if (const std::string& work = arguments.front(); work == "match" || work == "capture")
+        for (const std::string& warning : warnings_in(err)) log_warning_once(warning, warning);
     nlohmann::json answer =
         nlohmann::json::parse(read_text_file(out, max_output_bytes), nullptr, false);
     if (answer.is_discarded()) fail("{} {} printed no JSON", name, arguments.front());
@@ -114,6 +115,22 @@ std::vector<std::unique_ptr<ChildProcess>> start_rigs(const DemoStage& stage, bo
                                    .niceness = niceness}));
     }
     return rigs;
+}
+
+/// Throws Error with the sentence that a rig's process ended with. A rig ends before its first
+/// picture only for a fault.
+void require_running(const std::vector<std::unique_ptr<ChildProcess>>& rigs,
+                     const DemoStage& stage) {
+    for (std::size_t i = 0; i < rigs.size(); ++i) {
+        const std::optional<int> status = rigs[i]->ended();
+        if (!status) continue;
+        const std::string& name = stage.rigs()[i];
+        const std::filesystem::path log = stage.folder() / (name + ".log");
+        const std::string sentence = last_sentence_of(log);
+        fail("the rig '{}' ended before its first picture: {}", name,
+             sentence.empty() ? fmt::format("status {}, and {} says nothing", *status, log.string())
+                              : sentence);
+    }
 }
 
 LiveOptions live_options(const DemoOptions& options, const std::filesystem::path& folder,
@@ -221,14 +238,14 @@ void demo(DemoOptions options) {
         StopSignal stop;
         fmt::print("ready: {}\n", stage.stage_file().string());
         std::fflush(stdout);
-        while (!stop.wait_for(std::chrono::seconds(3600))) {
-        }
+        while (!stop.wait_for(std::chrono::milliseconds(200))) require_running(rigs, stage);
         return;
     }
     // With material of a real rig and a window, the camera starts at the rig.
     const bool flies = options.rig.empty() || options.headless;
     LiveOptions live = live_options(options, folder, stage, size.rate, move_file);
     if (!flies) live.show.path.clear();
+    live.while_waiting = [&] { require_running(rigs, stage); };
     warn_of_replaced_files(live);
     run_live_session(live);
     if (options.headless && !options.json)

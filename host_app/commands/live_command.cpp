@@ -48,17 +48,19 @@ void run_live_session(const LiveOptions& options) {
     StageReceiver receiver(stage, StageReceiver::Purpose::film, takes.tap());
     LiveShow show(with_sound, plan, takes.feed(feed_of(receiver)), deck.get());
     show.add(takes.camera_sink());
-    ShowSession session{
-        options.show,
-        show,
-        plan,
-        deck.get(),
-        flights,
-        clips,
-        options.show.desk_store(options.stage),
-        &takes,
-        "",
-        [&](StopSignal& signal) { return show.wait_for_rigs(from_s(options.wait_s), signal); }};
+    ShowSession session{options.show,
+                        show,
+                        plan,
+                        deck.get(),
+                        flights,
+                        clips,
+                        options.show.desk_store(options.stage),
+                        &takes,
+                        "",
+                        [&](StopSignal& signal) {
+                            return show.wait_for_rigs(from_s(options.wait_s), signal,
+                                                      options.while_waiting);
+                        }};
     session.run(stop);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "host_app/session/show_session.h"
@@ -13,6 +14,9 @@ struct LiveOptions {
     std::string take;   ///< take that is recorded from the start; empty: none
     std::string takes;  ///< folder of the takes that the operator starts; empty: the working folder
     double wait_s = 10, past_mb = 1024, pre_roll_s = 0;
+    /// Called while the first pictures are waited for; what it throws ends the session. Empty: nothing
+    /// is called.
+    std::function<void()> while_waiting{};
 };
 
 /// Runs a live session from the rigs' first frame to the summary. Call it before any other thread

@@ -82,10 +82,12 @@ void run(const RelayOptions& options) {
     const RigRelay relay(load_stage_config(options.stage), options.relay);
     const std::vector<RigRelay::Rig> rigs = relay.status();
     const std::string entries = stage_entries(rigs, options.relay.listen);
-    if (options.rigs_file.empty())
-        log_info("entries for the stage files of this relay's hosts:\n{}", entries);
-    else
+    if (options.rigs_file.empty()) {
+        log_info("the rigs for the stage files of this relay's hosts:");
+        fmt::print(stderr, "{}\n", entries);
+    } else {
         write_text_atomically(options.rigs_file, entries);
+    }
     while (!stop.wait_for(status_period)) (void)relay.status();
     const std::vector<RigRelay::Rig> ended = relay.status();
     if (!options.json) {

@@ -54,7 +54,7 @@ class Rendering {
         }
         for (const ViewSet& instant : earlier) {
             synthesiser_->set_views(instant.views);
-            synthesiser_->render(target);
+            synthesiser_->render_earlier(target);
         }
         synthesiser_->set_views(set.views);
     }
@@ -158,7 +158,7 @@ void render(const RenderOptions& options) {
         result["novelty"] = shares;  // old name
     }
 
-    write_colour_image(options.output, shown);
+    write_with_alpha(options.output, shown, covered_mask(picture));
     if (!options.difference.empty())
         write_colour_image(options.difference, difference_picture(picture, truth));
     print_result(result, options.json);

@@ -2,22 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "common/base/time/timecode.h"
+
 namespace vantage {
 
 std::optional<SmpteCode> SmpteCode::parse(std::string_view text) {
-    constexpr std::size_t length = 11;
-    if (text.size() != length || text[2] != ':' || text[5] != ':' ||
-        (text[8] != ':' && text[8] != ';'))
-        return std::nullopt;
-    const auto two = [&](std::size_t at) {
-        const int tens = text[at] - '0', ones = text[at + 1] - '0';
-        return tens < 0 || tens > 9 || ones < 0 || ones > 9 ? -1 : 10 * tens + ones;
-    };
-    const SmpteCode code{two(0), two(3), two(6), two(9), text[8] == ';'};
-    if (code.hours < 0 || code.hours > 23 || code.minutes < 0 || code.minutes > 59 ||
-        code.seconds < 0 || code.seconds > 59 || code.frame < 0)
-        return std::nullopt;
-    return code;
+    const std::optional<TimeLabel> label = TimeLabel::parse(text);
+    if (!label || !label->frame || text[2] != ':' || text[5] != ':') return std::nullopt;
+    return SmpteCode{label->hours, label->minutes, label->seconds, *label->frame, text[8] == ';'};
 }
 
 std::string SmpteCode::text() const {

@@ -125,7 +125,8 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
         programme_.add(std::make_unique<ContactSheetSink>(settings.contact_sheet));
 }
 
-bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
+bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop,
+                             const std::function<void()>& while_waiting) {
     const MonotonicTime deadline = MonotonicClock::now() + limit;
     const auto newest_frame_set = [&]() -> const FrameSet* {
         const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
@@ -142,6 +143,7 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop) {
         const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
         if (ready && ready->set->present() == static_cast<int>(ready->set->slots.size()))
             return true;
+        if (while_waiting) while_waiting();
         const ReceiverStatus now = status();
         if (!now.rigs.empty() &&
             std::all_of(now.rigs.begin(), now.rigs.end(),

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -60,8 +61,9 @@ class LiveShow {
     /// Waits for an instant with all rigs. After `limit` it continues with the rigs that are
     /// present and logs the missing ones. Throws Error, with every rig's state, if no rig sent a
     /// frame, and immediately if all rigs refuse this host. Returns false if the program is told to
-    /// stop.
-    bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop);
+    /// stop. `while_waiting` is called repeatedly; an exception from it ends the wait.
+    bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop,
+                       const std::function<void()>& while_waiting = {});
 
     /// Waits for the first instant of a take. Returns false if the program is told to stop.
     bool wait_for_first_frame_set(StopSignal& stop);

@@ -81,6 +81,12 @@ const Texture& Synthesiser::render(const VirtualView& view) {
     return renderer_->render(*instant_, view, render_levels().front());
 }
 
+void Synthesiser::render_earlier(const VirtualView& view) {
+    instant_ = preparer_->prepare(view, prepare_levels().front());
+    if (renderer_->lacks(*instant_, view).empty())
+        renderer_->render(*instant_, view, render_levels().front());
+}
+
 std::unique_ptr<Synthesiser> make_synthesiser(const std::string& name,
                                               const ShaderLibrary& library) {
     return std::make_unique<Synthesiser>(find_synthesiser(name), library);

@@ -115,6 +115,9 @@ class Synthesiser {
     void cut() { preparer_->cut(); }
     /// Renders as ViewRenderer::render() does. Throws Error if the instant lacks something for it.
     const Texture& render(const VirtualView& view);
+    /// Prepares and renders an instant that later ones build upon. One that lacks something for a
+    /// picture, such as silhouettes before the background is known, is only prepared.
+    void render_earlier(const VirtualView& view);
     bool note_origins(bool noted) { return renderer_->note_origins(noted); }
     const PixelOrigins* origins() const { return renderer_->origins(); }
 

@@ -1,8 +1,11 @@
 #include "host_app/view_sets/view_set_writer.h"
 
+#include <cmath>
+
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
+#include "common/image/image_file.h"
 #include "common/image/pfm.h"
 
 namespace vantage {
@@ -28,6 +31,8 @@ ViewSetWriter::ViewSetWriter(std::filesystem::path folder) : folder_(std::move(f
 }
 
 void ViewSetWriter::begin_view(const Camera& camera, const std::filesystem::path& picture) {
+    // A view set is read as a whole: what cannot be read is refused before it is copied.
+    picture_size_ = read_colour_image(picture).size();
     const Eigen::Matrix<double, 3, 4> pose = camera.world_from_camera.matrix().topRows<3>();
     document_["views"].push_back({{"name", camera.name},
                                   {"image", copy(picture, camera.name)},
@@ -36,6 +41,16 @@ void ViewSetWriter::begin_view(const Camera& camera, const std::filesystem::path
 }
 
 void ViewSetWriter::add_disparity(const Disparity& disparity) {
+    const std::string extension = disparity.file.extension().string();
+    const bool is_pfm = extension == ".pfm" || extension == ".PFM";
+    const cv::Size size =
+        is_pfm ? read_pfm(disparity.file).size() : read_code_image(disparity.file).size();
+    constexpr double most_aspect_error = 0.03;
+    const double aspect = size.aspectRatio() / picture_size_.aspectRatio();
+    if (std::abs(aspect - 1) > most_aspect_error)
+        fail("{} is {}x{} and its picture {}x{}: they are not of one field of view",
+             disparity.file.string(), size.width, size.height, picture_size_.width,
+             picture_size_.height);
     auto& view = document_["views"].back();
     view["disparity"] = copy(disparity.file, view["name"].get<std::string>() + "-disparity");
     if (disparity.scale) view["scale"] = *disparity.scale;

@@ -23,7 +23,8 @@ class ViewSetWriter {
         Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
         Pose world_from_camera = Pose::Identity();
     };
-    /// Begins a view with a copy of its image; maps are added to the last view.
+    /// Begins a view with a copy of its image; maps are added to the last view. Throws Error, as
+    /// add_disparity() does, for a file that cannot be read, before it is copied.
     void begin_view(const Camera& camera, const std::filesystem::path& picture);
     struct Disparity {
         std::filesystem::path file;  ///< to be copied
@@ -42,6 +43,7 @@ class ViewSetWriter {
     std::string copy(const std::filesystem::path& file, const std::string& stem);
 
     std::filesystem::path folder_;
+    cv::Size picture_size_;  ///< of the view that was begun last
     nlohmann::ordered_json document_{{"version", 1}, {"views", nlohmann::ordered_json::array()}};
     int with_geometry_ = 0;
 };

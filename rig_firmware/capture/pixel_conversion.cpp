@@ -3,7 +3,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/error.h"
-#include "common/wire/codec/colour_codec.h"
+#include "common/base/log.h"
+#include "common/image/jpeg.h"
 
 namespace vantage {
 namespace {
@@ -27,6 +28,21 @@ ColourImage deep_grey_to_colour(const cv::Mat& deep, int bits) {
         for (int x = 0; x < deep.cols; ++x)
             grey(y, x) = cv::saturate_cast<uchar>(deep.at<std::uint16_t>(y, x) >> shift);
     return grey_to_colour(grey);
+}
+
+/// Cameras take liberties with the standard that cost no pixel; a driver that sends each picture
+/// with padding is warned of once.
+ColourImage jpeg_to_colour(const RawPicture& picture) {
+    const DecodedJpeg decoded = decode_jpeg(picture.bytes, JpegChannels::rgba);
+    if (decoded.image.cols != picture.width_px || decoded.image.rows != picture.height_px)
+        fail("a camera picture is a JPEG of {}x{} where the camera promises {}x{}",
+             decoded.image.cols, decoded.image.rows, picture.width_px, picture.height_px);
+    if (!decoded.oddity.empty())
+        log_warning_once("camera JPEG " + decoded.oddity,
+                         fmt::format("a camera's JPEG departs from the standard without losing a "
+                                     "pixel ({}); it is taken, and so are others like it",
+                                     decoded.oddity));
+    return decoded.image;
 }
 
 std::size_t packed_bytes_per_line(PixelFormat format, int width_px) {
@@ -86,8 +102,7 @@ std::vector<PicturePlane> planes_of(const RawPicture& picture) {
 
 ColourImage to_colour(const RawPicture& picture) {
     const int width = picture.width_px, height = picture.height_px;
-    if (picture.format == PixelFormat::mjpg)
-        return JpegDecoder().decode(picture.bytes, width, height);
+    if (picture.format == PixelFormat::mjpg) return jpeg_to_colour(picture);
     const std::size_t stride = checked_bytes_per_line(picture);
     ColourImage colour;
     switch (picture.format) {

@@ -89,8 +89,7 @@ void match(const MatchOptions& options) {
     const std::string matcher_name =
         options.matcher.empty() ? default_matcher(preset) : options.matcher;
     check_outputs(options);
-    const ColourImage left = read_colour_image(options.left);
-    const ColourImage right = read_colour_image(options.right);
+    const auto [left, right] = read_colour_pair(options.left, options.right);
     if (left.size() != right.size())
         fail("{} is {}x{} and {} is {}x{}; the two pictures of a rectified pair have one size",
              options.left, left.cols, left.rows, options.right, right.cols, right.rows);

@@ -57,6 +57,10 @@ RigHealth facts_of(const RigConfig& config, const std::optional<StereoCalibratio
     return facts;
 }
 
+/// Takes hold frames with geometry, which a rig without calibration does not have.
+constexpr const char* keeps_nothing =
+    "keeps nothing: [keep] needs a calibration, and this rig has calibration = \"none\"";
+
 /// What leaves the rig of one instant.
 struct Instant {
     std::optional<RigFrame> view;      ///< empty at a rig without calibration
@@ -86,7 +90,7 @@ struct RigDaemon::Impl {
           frame_limit(most_frames),
           publisher(rig_config.stream, rig_config.name),
           trigger(RigTrigger::make(rig_config)),
-          keeper(rig_config.keep.folder.empty()
+          keeper(rig_config.keep.folder.empty() || rig_config.uncalibrated
                      ? nullptr
                      : std::make_unique<TakeKeeper>(rig_config.keep, rig_config.name,
                                                     rig_config.source.rate_hz)) {
@@ -177,13 +181,15 @@ void RigDaemon::Impl::start() {
         });
     SourceFacts source_facts = source.get();
     std::optional<StereoCalibration> calibration;
-    if (config.uncalibrated)
+    if (config.uncalibrated) {
         publisher.serve_raw_pairs_only(fmt::format(
             "rig {} has no calibration yet (calibration = \"none\") and sends no views; "
             "make one with: vantage-calib stereo --live",
             config.name));
-    else
+        if (!config.keep.folder.empty()) log_warning("rig {} {}", config.name, keeps_nothing);
+    } else {
         calibration = rig_calibration(config, source_facts.size);
+    }
     std::promise<void> gpu_ready;
     std::future<void> gpu = gpu_ready.get_future();
     gpu_thread = std::thread([this, calibration, specimens = std::move(source_facts.specimens),
@@ -466,7 +472,10 @@ DaemonStatus RigDaemon::status() const {
         if (counter.name == copied_pictures) counter.count += impl_->lent_pictures.copied;
     status.source_counters.push_back({"imported_pictures", impl_->lent_pictures.imported});
     status.sync = impl_->sync;
-    if (impl_->keeper) status.keeps = impl_->keeper->line();
+    if (impl_->keeper)
+        status.keeps = impl_->keeper->line();
+    else if (!impl_->config.keep.folder.empty())
+        status.keeps = keeps_nothing;
     status.capture_ms = impl_->capture_ms.summary();
     status.rectify_ms = impl_->rectify_ms.summary();
     status.match_ms = impl_->match_ms.summary();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/base/files/atomic_file.h"
+#include "common/calibration_forms/calibration_form.h"
 #include "common/config/calibration_file.h"
 #include "common/image/pfm.h"
 #include "common/image/png.h"
@@ -363,6 +364,14 @@ void write_calibration(const Seeds& seeds) {
     calibration.left = calibration.right = camera;
     calibration.right_from_left.translation().x() = -0.12;
     compute_rectification(calibration, 0);
+    // The first byte chooses the name, and a form that has several files is read one by one.
+    for (const CalibrationForm& form : calibration_forms()) {
+        if (!form.write) continue;
+        for (const FormText& text : form.write(calibration)) {
+            const char name = text.name == "cameras.txt" ? 2 : text.name == "images.txt" ? 3 : 0;
+            seeds.write("calibration_form", form.name + "-" + text.name, name + text.text);
+        }
+    }
     save_calibration(seeds.place("calibration_file", "good.yaml"), calibration,
                      {"2026-01-01", "seed", 0.2, 0.1, 12});
 }

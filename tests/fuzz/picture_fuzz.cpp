@@ -4,13 +4,21 @@
 #include <span>
 
 #include "common/base/error.h"
+#include "common/image/jpeg.h"
 #include "common/image/netpbm.h"
 #include "common/image/png.h"
 
-/// The input is a file; that of a JPEG is colour_codec's.
+/// The input is a file, which each decoder reads or refuses. colour_codec has the strict decoder of
+/// the stream.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const auto bytes = std::as_bytes(std::span(data, size));
-    for (const auto decode : {vantage::decode_png, vantage::decode_netpbm}) {
+    using Decode = cv::Mat (*)(std::span<const std::byte>);
+    constexpr Decode decoders[] = {
+        [](std::span<const std::byte> file) { return vantage::decode_png(file).image; },
+        [](std::span<const std::byte> file) { return vantage::decode_netpbm(file).image; },
+        [](std::span<const std::byte> file) { return vantage::decode_jpeg(file).image; },
+    };
+    for (const Decode decode : decoders) {
         try {
             const cv::Mat image = decode(bytes);
             if (image.empty() || (image.channels() != 1 && image.channels() != 3)) std::abort();

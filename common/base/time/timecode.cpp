@@ -1,6 +1,7 @@
 #include "common/base/time/timecode.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -42,6 +43,28 @@ std::string drop_frame_code(std::int64_t n, int numbers_per_second) {
 
 }  // namespace
 
+std::optional<TimeLabel> TimeLabel::parse(std::string_view text) {
+    constexpr std::size_t to_the_second = 8, to_the_frame = 11;
+    constexpr int hours_a_day = 24, of_sixty = 60;
+    if (text.size() != to_the_second && text.size() != to_the_frame) return std::nullopt;
+    std::array<int, 4> numbers{};
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (i % 3 == 2 ? c != ':' && c != ';' : c < '0' || c > '9') return std::nullopt;
+        if (i % 3 != 2) numbers[i / 3] = 10 * numbers[i / 3] + (c - '0');
+    }
+    if (numbers[0] >= hours_a_day || numbers[1] >= of_sixty || numbers[2] >= of_sixty)
+        return std::nullopt;
+    TimeLabel label{numbers[0], numbers[1], numbers[2]};
+    if (text.size() == to_the_frame) label.frame = numbers[3];
+    return label;
+}
+
+bool TimeLabel::matches(const TimeLabel& whole) const {
+    return hours == whole.hours && minutes == whole.minutes && seconds == whole.seconds &&
+           (!frame || frame == whole.frame);
+}
+
 TimecodeClock::TimecodeClock(double rate_hz)
     : grid_(rate_hz),
       frames_per_number_(static_cast<int>(std::ceil(grid_.rate_hz() / max_numbers_per_second))),
@@ -61,6 +84,41 @@ std::string TimecodeClock::of_pulse(std::uint64_t frame, int tai_offset_s) const
     };
     return is_drop_frame_ ? drop_frame_code(frames_since(second - of_day_s), numbers_per_second_)
                           : written(of_day_s, frames_since(second), ':');
+}
+
+std::optional<std::uint64_t> TimecodeClock::find(const TimeLabel& label, std::uint64_t first,
+                                                 std::uint64_t last, int tai_offset_s) const {
+    const auto label_of = [&](std::uint64_t pulse) {
+        return TimeLabel::parse(of_pulse(pulse, tai_offset_s)).value_or(TimeLabel{});
+    };
+    TimeLabel second_of_label = label;
+    second_of_label.frame.reset();
+    // Seconds are passed in half ones, so that none is missed; within one every pulse is looked at.
+    const auto second = static_cast<std::uint64_t>(std::ceil(grid_.rate_hz()));
+    for (std::uint64_t at = first;; at += std::max<std::uint64_t>(1, second / 2)) {
+        at = std::min(at, last);
+        if (second_of_label.matches(label_of(at))) {
+            const std::uint64_t end = std::min(last, at + second);
+            for (std::uint64_t pulse = std::max(first, at - std::min(at, second)); pulse <= end;
+                 ++pulse)
+                if (label.matches(label_of(pulse))) return pulse;
+        }
+        if (at == last) return std::nullopt;
+    }
+}
+
+std::string TimecodeClock::why_never(const TimeLabel& label) const {
+    if (!label.frame) return {};
+    if (*label.frame >= numbers_a_second_)
+        return fmt::format("does not exist at {:.5g} frames per second: its frames are 00 to {:02}",
+                           grid_.rate_hz(), numbers_a_second_ - 1);
+    const int dropped = is_drop_frame_ ? numbers_a_second_ / 15 : 0;
+    if (label.seconds == 0 && label.minutes % 10 != 0 && *label.frame < dropped)
+        return fmt::format(
+            "does not exist at {:.5g} frames per second: drop-frame code begins this minute with "
+            "{:02}:{:02}:00;{:02}",
+            grid_.rate_hz(), label.hours, label.minutes, dropped);
+    return {};
 }
 
 }  // namespace vantage

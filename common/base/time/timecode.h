@@ -1,12 +1,27 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 
 #include "common/base/time/pulse_grid.h"
 #include "common/base/time/time.h"
 
 namespace vantage {
+
+/// A label of a frame as people type it: "hh:mm:ss:ff", drop-frame or not with ':' or ';' between
+/// the numbers, or "hh:mm:ss" for the first frame of the second. Every place that reads a typed
+/// time code reads it through this.
+struct TimeLabel {
+    int hours = 0, minutes = 0, seconds = 0;
+    std::optional<int> frame = {};
+
+    /// Nothing: the text is no label.
+    static std::optional<TimeLabel> parse(std::string_view text);
+    /// True where this has no frame, or the same one.
+    bool matches(const TimeLabel& whole) const;
+};
 
 /// Computes SMPTE ST 12-1 time code for frames: the local time of day (of the computer's zone, or
 /// of use_time_zone()) and the frame's number within the second.
@@ -25,6 +40,13 @@ class TimecodeClock {
     /// ahead of UTC (from RigSync for a rig, from KernelClock for this computer): 37 where TAI is
     /// set, 0 where it is not.
     std::string of_pulse(std::uint64_t trigger_index, int tai_offset_s) const;
+    /// Returns the first pulse from `first` to `last` that has this label, or nothing.
+    std::optional<std::uint64_t> find(const TimeLabel& label, std::uint64_t first,
+                                      std::uint64_t last, int tai_offset_s) const;
+    /// Returns why no frame of any day has this label at this rate, as the rest of a sentence that
+    /// begins with the label; empty if some frame has it.
+    std::string why_never(const TimeLabel& label) const;
+
     /// The label of the last frame that began at or before `instant`.
     std::string at(TaiTime instant, int tai_offset_s) const {
         return of_pulse(grid_.index_at_or_before(instant), tai_offset_s);

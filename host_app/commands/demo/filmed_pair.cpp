@@ -29,6 +29,14 @@ std::string add_bare_pair(const FilmedPair& pair, const AskProgram& ask, DemoSta
              "-o", stage.folder() / "pair.pfm", "--json"});
     const double f_px =
         matched.at("width").get<double>() / 2 / std::tan(assumed_view_deg / 2 / degrees);
+    constexpr double least_parallax_px = 0.5;
+    const double disparity_px = matched.at("median_disparity_px").get<double>();
+    if (!(disparity_px > least_parallax_px))
+        fail(
+            "{} and {} show no parallax: most of the scene is shifted by {:.2f} px between them, "
+            "at "
+            "most {} px; give the left and the right picture of a stereo pair",
+            pair.left.string(), pair.right.string(), disparity_px, least_parallax_px);
     stage.add_rig(
         "pair",
         toml::table{{"source", source_of(pair, size.rate_hz)},
@@ -93,7 +101,10 @@ std::string move_before(const nlohmann::json& rectified, double median_disparity
 
 toml::table source_of(const FilmedPair& pair, double rate_hz) {
     toml::table source{{"kind", "files"}, {"rate_hz", rate_hz}, {"left", pair.left.string()}};
-    if (pair.right != "-") source.insert("right", pair.right.string());
+    if (pair.right != "-")
+        source.insert("right", pair.right.string());
+    else
+        source.insert("side_by_side", true);
     return source;
 }
 

@@ -129,7 +129,7 @@ std::optional<Stereoscopy> StereoscopicOptions::stereoscopy() const {
 std::uint64_t pulse_of(const TakeReader& take, const std::string& text, std::uint64_t first,
                        std::uint64_t last) {
     const PulseGrid pulses(take.facts().pulse_rate_hz);
-    if (text.find(':') == std::string::npos) {
+    if (text.find_first_of(":;") == std::string::npos) {
         std::size_t used = 0;
         double seconds = -1;
         try {
@@ -144,17 +144,23 @@ std::uint64_t pulse_of(const TakeReader& take, const std::string& text, std::uin
                 text, take.facts().timecode);
         return first + static_cast<std::uint64_t>(std::llround(seconds * pulses.rate_hz()));
     }
+    const TimecodeClock clock(take.facts().pulse_rate_hz);
+    const std::optional<TimeLabel> label = TimeLabel::parse(text);
+    if (!label)
+        fail(
+            "'{}' is not a time code such as {} (';' or ':' before the frame number, which may be "
+            "left out)",
+            text, take.facts().timecode);
+    if (const std::string why = clock.why_never(*label); !why.empty()) fail("{} {}", text, why);
     // A search through more pulses would take minutes.
-    constexpr std::uint64_t max_pulses = 100'000'000;
+    constexpr std::uint64_t max_pulses = 1'000'000'000;
     if (last - first > max_pulses)
         fail(
             "{} has {} pulses, too many to search for time code {} (limit: {}); give seconds "
             "after its beginning",
             take.path().string(), last - first, text, max_pulses);
     const int tai_offset_s = take.facts().tai_offset_s;
-    const TimecodeClock clock(take.facts().pulse_rate_hz);
-    for (std::uint64_t pulse = first; pulse <= last + 1; ++pulse)
-        if (clock.of_pulse(pulse, tai_offset_s) == text) return pulse;
+    if (const auto pulse = clock.find(*label, first, last + 1, tai_offset_s)) return *pulse;
     fail("time code {} is not in {}, which goes from {} to {}", text, take.path().string(),
          clock.of_pulse(first, tai_offset_s), clock.of_pulse(last, tai_offset_s));
 }

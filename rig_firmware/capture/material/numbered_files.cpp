@@ -31,7 +31,9 @@ std::optional<int> number_in(std::string_view name, std::string_view before,
 }  // namespace
 
 bool NumberedFiles::is_pattern(const std::filesystem::path& path) {
-    return path.string().find('%') != std::string::npos;
+    std::error_code ignored;
+    return path.filename().string().find('%') != std::string::npos &&
+           !std::filesystem::exists(path, ignored);
 }
 
 NumberedFiles::NumberedFiles(const std::filesystem::path& pattern)
@@ -39,10 +41,11 @@ NumberedFiles::NumberedFiles(const std::filesystem::path& pattern)
     static const std::regex one_number("([^%]*)%(?:0([1-9]))?d([^%]*)");
     std::smatch parts;
     const std::string name = pattern.filename().string();
-    if (NumberedFiles::is_pattern(pattern.parent_path()) ||
-        !std::regex_match(name, parts, one_number))
-        fail("the pattern {} must have one %d or %04d in its file name, and no other '%'",
-             pattern.string());
+    if (!std::regex_match(name, parts, one_number))
+        fail(
+            "there is no file {}, and as a pattern for numbered pictures its name must have one "
+            "%d or %04d and no other '%'",
+            pattern.string());
     before_ = parts[1];
     digits_ = parts[2].matched ? parts[2].str()[0] - '0' : 1;
     after_ = parts[3];

@@ -5,12 +5,14 @@
 
 namespace vantage {
 
-/// A file name with one number in it, written as printf does: "left_%04d.png", "%d.jpg".
+/// A file name with one number in it, written as printf does: "left_%04d.png", "%d.jpg". Its folder
+/// is taken as it is named.
 class NumberedFiles {
   public:
+    /// True for a name with '%' under which no file exists.
     static bool is_pattern(const std::filesystem::path& path);
 
-    /// Throws Error unless the file name (not its folder) holds exactly one %d or %0Nd.
+    /// Throws Error unless the file name holds exactly one %d or %0Nd.
     explicit NumberedFiles(const std::filesystem::path& pattern);
 
     std::filesystem::path path(int number) const;

@@ -12,9 +12,15 @@
 namespace vantage {
 namespace {
 
-StereoPair read_pair(const std::filesystem::path& left, const std::filesystem::path& right) {
-    if (right.empty()) return split_side_by_side(read_colour_image(left), left.string());
-    StereoPair pair{read_colour_image(left), read_colour_image(right)};
+/// So many pictures of a series are looked at for the range of their codes before it is played.
+constexpr std::size_t range_samples = 16;
+
+StereoPair read_pair(const std::filesystem::path& left, const std::filesystem::path& right,
+                     CodeRange& range) {
+    if (right.empty()) return split_side_by_side(read_colour_image(left, range), left.string());
+    StereoPair pair;
+    pair.left = read_colour_image(left, range);
+    pair.right = read_colour_image(right, range);
     if (pair.left.size() != pair.right.size())
         fail("{} is {}x{} and {} is {}x{}: both pictures of a pair must have one size",
              left.string(), pair.left.cols, pair.left.rows, right.string(), pair.right.cols,
@@ -22,10 +28,17 @@ StereoPair read_pair(const std::filesystem::path& left, const std::filesystem::p
     return pair;
 }
 
+StereoPair read_single_pair(const std::filesystem::path& left, const std::filesystem::path& right) {
+    std::vector<std::filesystem::path> files{left};
+    if (!right.empty()) files.push_back(right);
+    CodeRange range = common_code_range(files, files.size());
+    return read_pair(left, right, range);
+}
+
 class SinglePair final : public StereoMaterial {
   public:
     explicit SinglePair(const RigConfig::Source& source)
-        : pair_(read_pair(source.left, source.right)), loop_(source.loop) {
+        : pair_(read_single_pair(source.left, source.right)), loop_(source.loop) {
         description_ = source.right.empty() ? source.left + ", side by side"
                                             : source.left + " and " + source.right;
     }
@@ -51,6 +64,12 @@ using PairFiles = std::vector<std::pair<std::filesystem::path, std::filesystem::
 class PairSeries final : public StereoMaterial {
   public:
     PairSeries(PairFiles files, bool loop) : files_(std::move(files)), loop_(loop) {
+        std::vector<std::filesystem::path> names;
+        for (const auto& [left, right] : files_) {
+            names.push_back(left);
+            if (!right.empty()) names.push_back(right);
+        }
+        range_ = common_code_range(names, range_samples);
         size_ = read(0).left.size();
     }
 
@@ -72,9 +91,9 @@ class PairSeries final : public StereoMaterial {
     }
 
   private:
-    StereoPair read(std::uint64_t position) const {
+    StereoPair read(std::uint64_t position) {
         const auto& [left, right] = files_[position];
-        StereoPair pair = read_pair(left, right);
+        StereoPair pair = read_pair(left, right, range_);
         if (!size_.empty() && pair.left.size() != size_)
             fail("{} shows {}x{} pictures and those before it {}x{}: all must have one size",
                  left.string(), pair.left.cols, pair.left.rows, size_.width, size_.height);
@@ -83,6 +102,7 @@ class PairSeries final : public StereoMaterial {
 
     PairFiles files_;
     bool loop_;
+    CodeRange range_;
     cv::Size size_;
     std::optional<std::uint64_t> first_pulse_;
     std::uint64_t shown_to_ = 0;  ///< position after the last one shown

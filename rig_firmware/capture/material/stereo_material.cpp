@@ -2,6 +2,7 @@
 
 #include "common/base/error.h"
 #include "common/image/image_file.h"
+#include "rig_firmware/capture/material/numbered_files.h"
 
 namespace vantage {
 
@@ -16,15 +17,18 @@ StereoPair split_side_by_side(const ColourImage& picture, const std::string& wha
 }
 
 bool is_list(const std::string& name) {
-    if (std::filesystem::is_directory(name)) return true;
-    return name.find_first_of("*?") != std::string::npos && !std::filesystem::exists(name);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(name, ignored)) return true;
+    return std::filesystem::path(name).filename().string().find_first_of("*?[") !=
+               std::string::npos &&
+           !std::filesystem::exists(name, ignored);
 }
 
 std::unique_ptr<StereoMaterial> open_material(const RigConfig::Source& source) {
     if (source.left.empty())
         fail("the source 'files' needs pictures: name them with 'left' and 'right' in [source]");
     if (is_list(source.left)) return open_pictures(source);
-    const bool is_one_file = source.left.find('%') == std::string::npos;
+    const bool is_one_file = !NumberedFiles::is_pattern(source.left);
     if (is_one_file && !std::filesystem::exists(source.left))
         fail("there is no file {}", source.left);
     if (!is_one_file || is_picture_file(source.left)) return open_pictures(source);

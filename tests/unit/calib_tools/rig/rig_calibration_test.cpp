@@ -104,6 +104,82 @@ TEST(RigCalibration, recovers_small_pictures_whose_pixels_are_not_square) {
     EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("times as wide as high")));
 }
 
+/// The picture turned by 180 degrees, numbered as the finder numbers a board that looks alike then.
+void turn_half_round(SeenPicture& picture, const BoardPattern& pattern) {
+    BoardCorners turned;
+    for (auto corner = picture.sighting.corners.rbegin(); corner != picture.sighting.corners.rend();
+         ++corner) {
+        const int id = pattern.corner_count() - 1 - corner->id;
+        turned.push_back(
+            {id, pattern.corner_m(id),
+             Eigen::Vector2d(picture.width_px - 1, picture.height_px - 1) - corner->pixel});
+    }
+    picture.sighting.corners = turned;
+}
+
+TEST(RigCalibration, names_every_picture_that_is_turned_half_round) {
+    const BoardPattern alike = chessboard_pattern("8x6", 0.04);
+    SyntheticViews views(alike, 0.05);
+    SyntheticRig::Series series = SyntheticRig().film(views, 14);
+    for (const std::size_t i : {1, 3, 5, 7}) turn_half_round(series.right[i], alike);
+    turn_half_round(series.left[10], alike);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, alike, {.family = &lens_family("radial2")});
+    EXPECT_EQ(c.views_used, 9u);
+    std::vector<std::string> named;
+    for (const Refusal& refusal : c.rejected) {
+        named.push_back(refusal.name);
+        EXPECT_THAT(refusal.reason, HasSubstr("half round"));
+    }
+    EXPECT_THAT(named, testing::UnorderedElementsAre("right1.png", "right3.png", "right5.png",
+                                                     "right7.png", "left10.png"));
+    EXPECT_NEAR(c.baseline_m, 0.12, 0.005);
+}
+
+TEST(RigCalibration, says_that_cameras_are_toed_in) {
+    SyntheticRig rig;
+    rig.right_from_left.linear() =
+        Eigen::AngleAxisd(0.35, Eigen::Vector3d::UnitY()).toRotationMatrix();
+    SyntheticViews views(chessboard, 0.05);
+    const SyntheticRig::Series series = rig.film(views, 12);
+    ASSERT_EQ(series.left.size(), 12u);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("radial2")});
+    EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("look 20 degrees apart")));
+}
+
+TEST(RigCalibration, uses_or_names_every_pair) {
+    SyntheticViews views(chessboard, 0.05);
+    SyntheticRig::Series series = SyntheticRig().film(views, 12);
+    // One of another instant, and one of which nearly all corners were measured wrong.
+    std::swap(series.right[2].sighting.corners, series.right[3].sighting.corners);
+    for (std::size_t i = 3; i < series.right[5].sighting.corners.size(); ++i)
+        series.right[5].sighting.corners[i].pixel += Eigen::Vector2d(2.0 + 0.1 * (i % 7), -1.5);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("radial2")});
+    EXPECT_EQ(c.views_used + c.rejected.size(), 12u);
+    EXPECT_THAT(c.rejected, testing::Contains(
+                                testing::Field(&Refusal::reason, HasSubstr("not of one instant"))));
+}
+
+TEST(RigCalibration, of_the_same_pictures_is_the_same_to_the_last_bit) {
+    const auto id_of_a_run = [] {
+        SyntheticViews views(chessboard, 0.1);
+        const SyntheticRig::Series series = SyntheticRig().film(views, 8);
+        return calibration_checksum(
+            calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("radial2")})
+                .calibration);
+    };
+    const std::string first = id_of_a_run();
+    std::vector<std::vector<char>> holes;
+    for (int i = 0; i < 3; ++i) {
+        // Another heap each time, as the threads that look at pictures leave it.
+        for (int k = 0; k < 50; ++k) holes.emplace_back(static_cast<std::size_t>(37 * k + 100 * i));
+        for (std::size_t k = 0; k < holes.size(); k += 2) holes[k] = {};
+        EXPECT_EQ(id_of_a_run(), first);
+    }
+}
+
 TEST(RigCalibration, of_a_sound_rig_has_no_doubts) {
     SyntheticViews views(chessboard, 0.1);
     const SyntheticRig::Series series = SyntheticRig().film(views, 10);

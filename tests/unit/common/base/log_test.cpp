@@ -104,6 +104,27 @@ TEST(Log, TheSentenceAProgramEndsWithStandsAlone) {
                 ElementsAre("base_test: error: no such file"));
 }
 
+TEST(Log, KeepsALineBreakOfAFileNameWithinTheLine) {
+    const auto lines = lines_on_stderr([] {
+        log_info("cannot read {}", "left\n1\x1b[2J.jpg");
+        say_error("no file left\n2.jpg");
+    });
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_THAT(lines[0], IsALineOf("base_test: cannot read left\\n1\\x1b[2J.jpg"));
+    EXPECT_EQ(lines[1], "base_test: error: no file left\\n2.jpg");
+}
+
+TEST(Log, WarnsOnceUnderAKey) {
+    const auto lines = lines_on_stderr([] {
+        log_warning_once("log_test a", "first");
+        log_warning_once("log_test a", "second");
+        log_warning_once("log_test b", "third");
+    });
+    ASSERT_EQ(lines.size(), 2u);
+    EXPECT_THAT(lines[0], IsALineOf("base_test: warning: first"));
+    EXPECT_THAT(lines[1], IsALineOf("base_test: warning: third"));
+}
+
 TEST(Log, KeepsLinesOfSeveralThreadsWhole) {
     constexpr int threads = 4, each = 250;
     const auto lines = lines_on_stderr([] {

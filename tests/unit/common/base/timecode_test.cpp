@@ -147,5 +147,35 @@ TEST_F(TimecodeTest, FindsTimeZonesByName) {
               "them");
 }
 
+TEST(TimeLabel, ReadsBothMarksAndLabelsWithoutFrames) {
+    const std::optional<TimeLabel> label = TimeLabel::parse("10:01:02;03");
+    ASSERT_TRUE(label);
+    EXPECT_EQ(label->hours, 10);
+    EXPECT_EQ(label->frame, 3);
+    EXPECT_TRUE(label->matches(*TimeLabel::parse("10:01:02:03")));
+    EXPECT_FALSE(label->matches(*TimeLabel::parse("10:01:02:04")));
+    EXPECT_TRUE(TimeLabel::parse("10:01:02")->matches(*label));
+    for (const char* text : {"", "10:01", "24:00:00", "10:60:00:00", "10:01:02:0", "10:01:02:033",
+                             "1a:00:00:00", "10-01-02-03", " 10:01:02"})
+        EXPECT_FALSE(TimeLabel::parse(text)) << text;
+}
+
+TEST(TimeLabel, IsFoundInDropFrameCodeWithEitherMark) {
+    const TimecodeClock clock(29.97);
+    const PulseGrid grid(29.97);
+    const std::uint64_t first = grid.index_at_or_before(tai_from_ns(1'795'042'800'000'000'000));
+    const std::uint64_t pulse = first + 4321;
+    std::string code = clock.of_pulse(pulse, 0);
+    ASSERT_EQ(code[8], ';');
+    EXPECT_EQ(clock.find(*TimeLabel::parse(code), first, first + 9000, 0), pulse);
+    code[8] = ':';
+    EXPECT_EQ(clock.find(*TimeLabel::parse(code), first, first + 9000, 0), pulse);
+    EXPECT_FALSE(clock.find(*TimeLabel::parse(code), first, pulse - 1, 0));
+    EXPECT_NE(clock.why_never(*TimeLabel::parse("10:01:00:01")), "");
+    EXPECT_EQ(clock.why_never(*TimeLabel::parse("10:10:00:01")), "");
+    EXPECT_NE(clock.why_never(*TimeLabel::parse("10:10:00:30")), "");
+    EXPECT_EQ(TimecodeClock(25).why_never(*TimeLabel::parse("10:01:00:00")), "");
+}
+
 }  // namespace
 }  // namespace vantage

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/thrown_sentence.h"
 #include "tests/unit/common/config/config_text.h"
 
 namespace vantage {
@@ -219,6 +220,17 @@ TEST_F(RigConfigTest, RequiresALineForATriggerThatUsesOne) {
                 testing::HasSubstr("needs the role 'lead'"));
     EXPECT_THAT(fault(top + "line = 'a'\nline_offset = 4\n"), testing::HasSubstr("keep one"));
     EXPECT_THAT(fault(top + "role = 'led'\n"), testing::HasSubstr("lead"));
+}
+
+TEST_F(RigConfigTest, OneSideIsNoRigUnlessBothAreInItsPictures) {
+    const auto refusal = [&](const std::string& source) {
+        return thrown_sentence(
+            [&] { load("version = 1\nname = \"a\"\n[source]\nkind = \"files\"\n" + source); });
+    };
+    EXPECT_NE(refusal("left = \"a.mp4\"\n").find("side_by_side = true"), std::string::npos);
+    EXPECT_EQ(refusal("left = \"a.mp4\"\nside_by_side = true\n"), "");
+    EXPECT_EQ(refusal("left = \"a.mp4\"\nright = \"b.mp4\"\n"), "");
+    EXPECT_NE(refusal("left = \"a.mp4\"\nright = \"b.mp4\"\nside_by_side = true\n"), "");
 }
 
 }  // namespace

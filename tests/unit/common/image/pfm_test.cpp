@@ -55,6 +55,16 @@ TEST_F(PfmTest, KeepsEveryBitThereAndBack) {
     EXPECT_EQ(std::memcmp(back.data, image.data, image.total() * sizeof(float)), 0);
 }
 
+TEST_F(PfmTest, ReadsHeadersWithTheLineEndsOfWindows) {
+    const std::string values = samples({1.5f, 2.5f}, true);
+    EXPECT_EQ(read_pfm(write("Pf\r\n2 1\r\n-1.0\r\n" + values))(0, 1), 2.5f);
+    // A sample that begins with LF after a header that ends with CR alone.
+    const std::string odd = std::string("\x0a\x00\x80\x3f", 4);
+    const cv::Mat1f image = read_pfm(write("Pf\r1 1\r-1.0\r" + odd));
+    EXPECT_GT(image(0, 0), 1.0f);
+    EXPECT_NE(refusal_of("Pf\r\n2 1\r\n-1.0\r\n" + values + "x"), "");
+}
+
 TEST_F(PfmTest, WritesPartsOfLargerPictures) {
     cv::Mat1f large(6, 9);
     for (int i = 0; i < 54; ++i) large(i / 9, i % 9) = static_cast<float>(i);

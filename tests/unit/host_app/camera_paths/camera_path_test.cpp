@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "host_app/camera_paths/camera_path_file.h"
 #include "host_app/flight/orbit_view.h"
 #include "tests/support/data_folder.h"
@@ -141,6 +142,149 @@ TEST_F(CameraPathTest, ColmapPicturesComeInTheOrderOfTheirNames) {
     EXPECT_NEAR(read.cameras[0].world_from_camera.translation().z(), -4, 1e-12);
     EXPECT_EQ(read.size_px, cv::Size(640, 480));
     EXPECT_NEAR(read.cameras[0].field_of_view_rad, 2 * std::atan(0.5), 1e-12);
+}
+
+// What other programs write of COLMAP's form ------------------------------------------------------
+
+std::vector<double> eyes_of(const CameraPath& path) {
+    std::vector<double> eyes;
+    for (const CameraState& state : path.cameras)
+        eyes.push_back(std::round(state.world_from_camera.translation().x() * 1e6) / 1e6);
+    return eyes;
+}
+
+class ColmapTextTest : public CameraPathTest {
+  protected:
+    CameraPath read(const std::string& images) const {
+        return colmap_path_of(images, "1 PINHOLE 640 480 500 500 320 240\r\n\r\n", "images.txt",
+                              {});
+    }
+    static std::string image(int id, const std::string& name, int eye_x) {
+        return fmt::format("{} 1 0 0 0 {} 0 0 1 {}", id, -eye_x, name);
+    }
+};
+
+TEST_F(ColmapTextTest, NamesHaveSpacesAndNaturalOrder) {
+    EXPECT_EQ(eyes_of(read(image(2, "A (2).jpg", 2) + "\n\n" + image(1, "A (1).jpg", 1) + "\n\n")),
+              (std::vector<double>{1, 2}));
+    EXPECT_EQ(eyes_of(read(image(1, "img_1.jpg", 1) + "\n\n" + image(2, "img_10.jpg", 10) + "\n\n" +
+                           image(3, "img_9.jpg", 9) + "\n\n")),
+              (std::vector<double>{1, 9, 10}));
+}
+
+TEST_F(ColmapTextTest, TheLineOfPointsMayBeEmptyFullOrMissing) {
+    const std::string points = "1.5 2.5 -1 3e2 4 17\n";
+    for (const std::string& after :
+         {std::string("\n"), std::string(), points, std::string("\r\n"), std::string(" \n")}) {
+        std::string text = "# Image list with two lines of data per image:\n";
+        for (const int i : {1, 2, 3, 4})
+            text += image(i, fmt::format("img{}.jpg", i), i * i) + "\n" + after;
+        EXPECT_EQ(eyes_of(read(text)), (std::vector<double>{1, 4, 9, 16})) << after;
+    }
+}
+
+TEST_F(ColmapTextTest, RefusesFewerImagesThanTheHeaderStates) {
+    const std::string text = "# Number of images: 3, mean observations per image: 0\n" +
+                             image(1, "a.jpg", 1) + "\n\n" + image(2, "b.jpg", 2) + "\n\n";
+    EXPECT_NE(thrown_sentence([&] { read(text); }).find("states 3 images and 2"),
+              std::string::npos);
+}
+
+TEST_F(CameraPathTest, OmafCamerasMayStandInOtherAxes) {
+    // A metre right of the first camera and a metre above it, looking ahead.
+    const auto stands_at = [&](const std::string& system, const std::string& place) {
+        const std::string stated =
+            system.empty() ? "" : fmt::format(R"("Axial_system": "{}", )", system);
+        const CameraPath path =
+            omaf_path_of(fmt::format(R"({{{}"cameras": [{{"Name": "v", "Projection": "Perspective",
+                "Position": {}, "Rotation": [0, 0, 0], "Resolution": [640, 480],
+                "Focal": [500, 500], "Principle_point": [320, 240]}}]}})",
+                                     stated, place),
+                         "a.json", {});
+        const Pose& pose = path.cameras.at(0).world_from_camera;
+        EXPECT_TRUE(pose.linear().col(2).isApprox(-Eigen::Vector3d::UnitZ())) << system;
+        EXPECT_TRUE(pose.linear().col(1).isApprox(-Eigen::Vector3d::UnitY())) << system;
+        return Eigen::Vector3d(pose.translation());
+    };
+    const Eigen::Vector3d expected(1, 2, -3);
+    EXPECT_TRUE(stands_at("", "[3, -1, 2]").isApprox(expected));
+    EXPECT_TRUE(stands_at("OMAF", "[3, -1, 2]").isApprox(expected));
+    EXPECT_TRUE(stands_at("OPENGL", "[1, 2, -3]").isApprox(expected));
+    EXPECT_TRUE(stands_at("COLMAP", "[1, -2, 3]").isApprox(expected));
+    EXPECT_NE(thrown_sentence([&] { stands_at("UNITY", "[1, 2, 3]"); }).find("'UNITY'"),
+              std::string::npos);
+}
+
+// glTF files that have more than one camera on its way
+// ---------------------------------------------
+
+class GltfTest : public CameraPathTest {
+  protected:
+    GltfTest() {
+        CameraPath two{
+            25, {1280, 720}, {camera({1, 2, 3}, {0, 0, 0}), camera({2, 2, 3}, {0, 0, 0})}};
+        through(two, "a.gltf");
+        json_ = nlohmann::json::parse(std::ifstream(path("a.gltf")));
+    }
+    CameraPath read() const {
+        const std::string text = json_.dump();
+        return gltf_path_of(std::as_bytes(std::span(text)), "a.gltf", {});
+    }
+    /// What reading the file adds to the log.
+    std::string last_warning_of_read() const {
+        log_info("before");
+        (void)read();
+        return recent_log_lines().back();
+    }
+    nlohmann::json json_;
+};
+
+TEST_F(GltfTest, AScaleAboveTheCameraMovesItsEye) {
+    nlohmann::json above = {{"name", "cm"}, {"children", {0}}, {"scale", {0.01, 0.01, 0.01}}};
+    json_["nodes"].push_back(above);
+    EXPECT_TRUE(read().cameras[0].world_from_camera.translation().isApprox(
+        Eigen::Vector3d(0.01, 0.02, 0.03), 1e-6));
+    json_["nodes"][1].erase("scale");
+    json_["nodes"][1]["matrix"] = {0.01, 0, 0, 0, 0, 0.01, 0, 0, 0, 0, 0.01, 0, 5, 0, 0, 1};
+    EXPECT_TRUE(read().cameras[0].world_from_camera.translation().isApprox(
+        Eigen::Vector3d(5.01, 0.02, 0.03), 1e-6));
+    EXPECT_NEAR(read().cameras[0].world_from_camera.linear().determinant(), 1, 1e-9);
+    json_["nodes"][0]["scale"] = {3, 3, 3};
+    EXPECT_TRUE(read().cameras[0].world_from_camera.translation().isApprox(
+        Eigen::Vector3d(5.01, 0.02, 0.03), 1e-6))
+        << "its own scale moves no eye";
+    json_["nodes"][1]["matrix"] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    EXPECT_NE(thrown_sentence([&] { read(); }).find("mirrors it"), std::string::npos);
+}
+
+TEST_F(GltfTest, TheFirstOfSeveralTakesIsTakenAndSaid) {
+    nlohmann::json second = json_["animations"][0];
+    second["name"] = "second";
+    std::swap(second["samplers"][0]["output"], second["samplers"][1]["output"]);
+    second["channels"].erase(1);
+    second["samplers"][0]["output"] = 1;
+    json_["animations"].push_back(second);
+    const std::string warning = last_warning_of_read();
+    EXPECT_NE(warning.find("'flight' is taken and 'second' is left out"), std::string::npos)
+        << warning;
+    EXPECT_NEAR(read().cameras[1].world_from_camera.translation().x(), 2, 1e-6);
+}
+
+TEST_F(GltfTest, AnimationsOfDifferentThingsBelongTogether) {
+    nlohmann::json second = json_["animations"][0];
+    second["name"] = "lens";
+    second["channels"] = nlohmann::json::array({json_["animations"][0]["channels"][2]});
+    json_["animations"][0]["channels"].erase(2);
+    json_["animations"].push_back(second);
+    EXPECT_EQ(last_warning_of_read().find("takes"), std::string::npos);
+    EXPECT_EQ(read().cameras.size(), 2u);
+}
+
+TEST_F(GltfTest, TheFirstOfSeveralCamerasIsTakenAndSaid) {
+    json_["nodes"].push_back({{"name", "other"}, {"camera", 0}});
+    const std::string warning = last_warning_of_read();
+    EXPECT_NE(warning.find("'camera' is taken and 'other' is left out"), std::string::npos)
+        << warning;
 }
 
 TEST_F(CameraPathTest, AnAnimatedParentCarriesAGltfCamera) {

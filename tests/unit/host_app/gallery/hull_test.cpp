@@ -50,6 +50,21 @@ TEST_F(HullTest, IsLargerTheFewerRigsCutIt) {
     EXPECT_GT(two, 1.05 * red_outline(synthesiser_->render(target).download()).area);
 }
 
+TEST_F(HullTest, EarlierInstantsNeedNoSilhouettes) {
+    const VirtualView target = view_of_scene(ball_and_wall(0, {61, 47}, true));
+    std::vector<DepthView> empty, full;
+    for (const double angle_deg : {-40, -13, 13, 40}) {
+        empty.push_back(ball_and_wall(angle_deg, {61, 47}, false));
+        full.push_back(ball_and_wall(angle_deg, {61, 47}, true));
+    }
+    for (int i = 0; i < 8; ++i) {
+        synthesiser_->set_views(empty, 0.2);
+        synthesiser_->render_earlier(target);
+    }
+    synthesiser_->set_views(full, 0.2);
+    EXPECT_GT(red_outline(synthesiser_->render(target).download()).area, 0);
+}
+
 TEST_F(HullTest, RefusesInstantsWithoutSilhouettes) {
     const DepthView views[] = {ball_and_wall(-13, {61, 47}, true),
                                ball_and_wall(13, {61, 47}, true)};

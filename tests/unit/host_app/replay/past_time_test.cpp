@@ -45,6 +45,20 @@ TEST_P(PastTime, TimeCodeWithoutFramesIsTheFirstOfTheSecond) {
     EXPECT_FALSE(clock.of_pulse(pulse - 1, 0).starts_with("23:55:07"));
 }
 
+TEST_P(PastTime, TakesEveryMarkBetweenTheNumbers) {
+    EXPECT_EQ(find("23:55:07;12"), find("23:55:07:12"));
+    EXPECT_EQ(find("23;55;07;12"), find("23:55:07:12"));
+}
+
+TEST_P(PastTime, NamesLabelsThatDoNotExist) {
+    EXPECT_NE(refusal("23:55:07:60").find("does not exist"), std::string::npos);
+    EXPECT_EQ(refusal("23:51:00:00").find("begins this minute with 23:51:00;02") !=
+                  std::string::npos,
+              GetParam() == 29.97)
+        << refusal("23:51:00:00");
+    EXPECT_EQ(refusal("23:51:00:02"), "");
+}
+
 TEST_P(PastTime, AcceptsSecondsFromBothEnds) {
     const auto rate = [&](double seconds) {
         return static_cast<std::uint64_t>(std::llround(seconds * GetParam()));

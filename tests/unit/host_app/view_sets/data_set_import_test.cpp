@@ -136,6 +136,25 @@ TEST(MiddleburyImport, AgreesWithTheCamerasOfTheViewSetMadeByHand) {
     }
 }
 
+TEST(MiddleburyImport, RefusesAMapThatCannotBeReadBeforeItWritesAnything) {
+    const TemporaryFolder folder;
+    for (const char* name : {"im0.png", "im1.png"})
+        write_colour_image(folder.path() / name, ColourImage(6, 8, cv::Vec4b(1, 2, 3, 255)));
+    std::ofstream(folder.path() / "calib.txt")
+        << "cam0=[100 0 3.5; 0 101 2.5; 0 0 1]\ncam1=[100 0 5.5; 0 101 2.5; 0 0 1]\n"
+           "doffs=2\nbaseline=60\n";
+    const auto refusal = [&](const char* out) {
+        return thrown_sentence([&] { import_middlebury(folder.path(), folder.path() / out); });
+    };
+    std::ofstream(folder.path() / "disp0.pfm") << "Pf\n8 6\n-1\nshort";
+    EXPECT_NE(refusal("a").find("disp0.pfm should hold"), std::string::npos) << refusal("a2");
+    EXPECT_FALSE(fs::exists(folder.path() / "a/views.json"));
+    write_pfm(folder.path() / "disp0.pfm", cv::Mat1f(6, 12, 4.0f));
+    EXPECT_NE(refusal("b").find("12x6"), std::string::npos);
+    write_pfm(folder.path() / "disp0.pfm", cv::Mat1f(6, 8, 4.0f));
+    EXPECT_EQ(refusal("c"), "");
+}
+
 TEST(MiddleburyImport, ReadsACalibratedPair) {
     const TemporaryFolder folder;
     for (const char* name : {"im0.png", "im1.png"})

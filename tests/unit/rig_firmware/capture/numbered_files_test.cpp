@@ -18,8 +18,21 @@ TEST(NumberedFiles, WritesNumbersAsPrintfDoes) {
 
 TEST(NumberedFiles, RefusesOtherPatterns) {
     for (const char* pattern : {"left.png", "%s.png", "%d_%d.png", "%4d.png", "%.png", "%%d.png",
-                                "take_%d/left_%d.png", "take_%d/left.png"})
+                                "take_%d/left.png"})
         EXPECT_THROW(NumberedFiles{pattern}, Error) << pattern;
+}
+
+TEST(NumberedFiles, TakesFoldersAndExistingFilesByTheirNames) {
+    const TemporaryFolder temporary;
+    const auto folder = temporary.path() / "rig 50%d";
+    std::filesystem::create_directory(folder);
+    EXPECT_FALSE(NumberedFiles::is_pattern(folder / "a.jpg"));
+    EXPECT_TRUE(NumberedFiles::is_pattern(folder / "shot %d.jpg"));
+    std::ofstream(folder / "shot 3.jpg") << "x";
+    EXPECT_EQ(NumberedFiles(folder / "shot %d.jpg").count_from(3), 1);
+    EXPECT_EQ(NumberedFiles(folder / "shot %d.jpg").path(3), folder / "shot 3.jpg");
+    std::ofstream(folder / "shot %d.jpg") << "x";
+    EXPECT_FALSE(NumberedFiles::is_pattern(folder / "shot %d.jpg"));
 }
 
 TEST(NumberedFiles, CountsWhatFollowsWithoutAGap) {

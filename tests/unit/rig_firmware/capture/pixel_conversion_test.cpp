@@ -86,6 +86,16 @@ TEST(PixelFormat, MjpgIsDecodedInRedGreenBlueOrder) {
     EXPECT_THROW(to_colour({PixelFormat::mjpg, 16, 16, 0, std::span(jpeg).first(40)}), Error);
 }
 
+TEST(PixelFormat, MjpgOfOrdinaryCamerasIsTaken) {
+    std::vector<std::byte> padded = encode_jpeg(cv::Mat3b(16, 16, cv::Vec3b(255, 128, 0)));
+    const ColourImage clean = to_colour({PixelFormat::mjpg, 16, 16, 0, padded});
+    padded.insert(padded.end() - 2, 24, std::byte{0});
+    EXPECT_EQ(cv::norm(to_colour({PixelFormat::mjpg, 16, 16, 0, padded}), clean, cv::NORM_INF), 0);
+    const std::vector<std::byte> grey =
+        encode_jpeg(cv::Mat1b(16, 16, static_cast<unsigned char>(77)));
+    EXPECT_EQ(to_colour({PixelFormat::mjpg, 16, 16, 0, grey})(3, 4), cv::Vec4b(77, 77, 77, 255));
+}
+
 TEST(PixelFormat, RefusesTooFewBytesAndOddSides) {
     const std::vector<std::byte> data(64);
     const auto part = [&](std::size_t n) { return std::span(data).first(n); };

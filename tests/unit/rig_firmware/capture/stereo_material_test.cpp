@@ -48,6 +48,35 @@ TEST_F(StereoMaterialTest, PlaysASinglePairOnceOrForEver) {
     EXPECT_FALSE(once->pair_of(8));
 }
 
+TEST_F(StereoMaterialTest, TakesNamesAsTheyAre) {
+    std::filesystem::create_directory(folder_.path() / "rig 50% [1]");
+    for (const char* name : {"l[1].png", "shot 50%.png", "a\nb.png"}) {
+        const std::string file = std::string("rig 50% [1]/") + name;
+        write(file, 30);
+        EXPECT_EQ(grey(open_material({.left = at(file), .right = at(file)})->pair_of(0)->left), 30)
+            << name;
+    }
+    write("rig 50% [1]/n07.png", 40);
+    const std::string pattern = at("rig 50% [1]/n%02d.png");
+    const auto numbered = open_material({.left = pattern, .right = pattern, .first = 7});
+    EXPECT_EQ(grey(numbered->pair_of(0)->left), 40);
+}
+
+TEST_F(StereoMaterialTest, ScalesDeepPicturesOfASeriesAlike) {
+    for (int i = 0; i < 3; ++i) {
+        const int white = i == 1 ? 1023 : 200;
+        write_grey_image(at(fmt::format("l{}.png", i)),
+                         cv::Mat1w(17, 31, static_cast<ushort>(white)));
+        write_grey_image(at(fmt::format("r{}.png", i)),
+                         cv::Mat1w(17, 31, static_cast<ushort>(100)));
+    }
+    const auto series = open_material({.left = at("l%d.png"), .right = at("r%d.png")});
+    const auto dark = series->pair_of(0), bright = series->pair_of(1);
+    EXPECT_NEAR(grey(dark->left), 200 * 255 / 1023, 1);
+    EXPECT_EQ(grey(bright->left), 255);
+    EXPECT_NEAR(grey(bright->right), 100 * 255 / 1023, 1);
+}
+
 TEST_F(StereoMaterialTest, CutsSideBySidePictures) {
     ColourImage both(17, 62, cv::Vec4b(1, 1, 1, 255));
     both.colRange(31, 62).setTo(cv::Vec4b(2, 2, 2, 255));

@@ -19,6 +19,7 @@
 #include "common/base/error.h"
 #include "common/base/files/unique_fd.h"
 #include "common/receive/stage_receiver.h"
+#include "tests/support/data_folder.h"
 
 namespace vantage {
 namespace {
@@ -174,6 +175,16 @@ TEST(RigDaemon, WithoutACalibrationServesRawPairsToWhoAsksAndAccountsForEveryFra
     const RigCounters counters = daemon.status().publisher.counters;
     EXPECT_GT(counters.published, 0u);
     EXPECT_EQ(counters.captured, counters.published + counters.late);
+}
+
+TEST(RigDaemon, WithoutACalibrationSaysThatItKeepsNothing) {
+    const TemporaryFolder folder;
+    RigConfig config = small_rig();
+    config.uncalibrated = true;
+    config.keep.folder = folder.path() / "kept";
+    RigDaemon daemon(config);
+    EXPECT_THAT(daemon.status().keeps, testing::HasSubstr("keeps nothing"));
+    EXPECT_FALSE(std::filesystem::exists(config.keep.folder)) << "no empty takes";
 }
 
 TEST(RigDaemon, ServesRawPairsBesideItsViews) {

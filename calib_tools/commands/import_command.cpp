@@ -1,0 +1,169 @@
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "calib_tools/interchange/calibration_import.h"
+#include "calib_tools/report/calibration_text.h"
+#include "common/base/cli/command.h"
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/config/calibration_file.h"
+#include "common/config/intrinsics_file.h"
+#include "common/image/image_file.h"
+
+namespace vantage {
+namespace {
+
+struct ForeignImportOptions {
+    std::vector<std::string> files, check;
+    std::string output, unit;
+    std::vector<int> size;
+    ImportSettings settings;
+    bool json = false;
+};
+
+double metres_per(const std::string& unit) {
+    if (unit == "mm") return 0.001;
+    if (unit == "cm") return 0.01;
+    if (unit == "inch") return 0.0254;
+    return unit == "m" ? 1 : 0;
+}
+
+std::vector<FormFile> load_form_files(const std::vector<std::string>& names) {
+    std::vector<FormFile> files;
+    for (const std::string& name : names) {
+        // COLMAP's model is a folder.
+        if (std::filesystem::is_directory(name)) {
+            for (const char* part : {"cameras.txt", "images.txt"})
+                files.push_back(load_form_file(std::filesystem::path(name) / part));
+        } else {
+            files.push_back(load_form_file(name));
+        }
+    }
+    return files;
+}
+
+void describe_import(const ImportedCalibration& imported, const std::optional<RowAgreement>& rows) {
+    std::string text = fmt::format("Taken from a calibration of {}:\n", imported.program);
+    for (const std::string& sentence : imported.taken) text += "  " + sentence + '\n';
+    text += "Assumed:\n";
+    for (const std::string& sentence : imported.assumed) text += "  " + sentence + '\n';
+    if (!imported.left_out.empty()) text += "Left out:\n";
+    for (const std::string& sentence : imported.left_out) text += "  " + sentence + '\n';
+    if (rows)
+        text += fmt::format(
+            "Checked on pictures: {} features are {:.2f} px from their rows (median; RMS {:.2f} "
+            "px)\n",
+            rows->features, rows->median_px, rows->rms_px);
+    std::cout << text;
+}
+
+void import_foreign(const ForeignImportOptions& options) {
+    ImportSettings settings = options.settings;
+    settings.metres_per_unit = metres_per(options.unit);
+    if (!options.size.empty()) settings.form.size_px = cv::Size(options.size[0], options.size[1]);
+    const std::vector<FormFile> files = load_form_files(options.files);
+    const ImportedCalibration imported = import_calibration(files, settings);
+    std::optional<RowAgreement> rows;
+    if (!options.check.empty()) {
+        if (!imported.rig) fail("--check needs a rig, and the files hold one camera");
+        const auto [left, right] = read_colour_pair(options.check[0], options.check[1]);
+        rows = check_rows(*imported.rig, left, right);
+    }
+    const std::string tool = fmt::format("vantage-calib import, from {}", imported.program);
+    if (imported.rig)
+        save_calibration(options.output, *imported.rig,
+                         {.date = date_now(),
+                          .tool = tool,
+                          .row_rms_px = rows ? rows->rms_px : 0,
+                          .alpha = settings.alpha});
+    else
+        save_intrinsics(
+            options.output, imported.camera,
+            {.date = date_now(),
+             .tool = tool,
+             .sigma = {.distortion = std::vector<double>(imported.camera.distortion.size())}});
+    log_info("{} written", options.output);
+    if (options.json) {
+        nlohmann::ordered_json json{{"path", options.output},
+                                    {"program", imported.program},
+                                    {"is_rig", imported.rig.has_value()},
+                                    {"taken", imported.taken},
+                                    {"assumed", imported.assumed},
+                                    {"left_out", imported.left_out}};
+        if (rows)
+            json["rows"] = {{"features", rows->features},
+                            {"median_px", rows->median_px},
+                            {"rms_px", rows->rms_px}};
+        std::cout << json.dump(2) << '\n';
+    } else {
+        describe_import(imported, rows);
+    }
+    constexpr double good_rows_px = 1;
+    if (rows && rows->median_px > good_rows_px)
+        log_warning(
+            "the rows of the pictures disagree by {:.2f} px, more than {} px: the calibration is "
+            "of other cameras, of another size, or in another convention",
+            rows->median_px, good_rows_px);
+}
+
+std::string known_programs() {
+    std::vector<std::string> names;
+    for (const CalibrationForm& form : calibration_forms()) names.push_back(form.program);
+    return fmt::format("{}", fmt::join(names, "; "));
+}
+
+}  // namespace
+
+CommandEntry import_command_entry() {
+    return {[](CLI::App& program) {
+        CLI::App* command = program.add_subcommand(
+            "import", "Make a calibration of Vantage from the files of another program");
+        const auto options = std::make_shared<ForeignImportOptions>();
+        command
+            ->add_option("FILE", options->files,
+                         "files of one calibration, or the folder of a COLMAP model; known are: " +
+                             known_programs())
+            ->required();
+        command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
+            ->required();
+        command->add_option("--left", options->settings.left,
+                            "name of the left camera, where the files have several");
+        command->add_option("--right", options->settings.right, "name of the right camera");
+        command
+            ->add_option("--unit", options->unit,
+                         "unit of the file's lengths, where its form defines none")
+            ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
+        command
+            ->add_option("--baseline-m", options->settings.baseline_m,
+                         "measured distance of the cameras in metres: sets the scale")
+            ->check(CLI::PositiveNumber);
+        command
+            ->add_option("--size", options->size,
+                         "WIDTH HEIGHT of the pictures, where the files do not state it")
+            ->expected(2)
+            ->delimiter('x')
+            ->check(CLI::Range(1, 16384));
+        command->add_flag("--fisheye", options->settings.form.is_fisheye,
+                          "the lens model is OpenCV's fisheye, where the files do not state it");
+        command
+            ->add_option("--alpha", options->settings.alpha,
+                         "rectified picture: 0 only valid pixels, 1 all raw pixels")
+            ->check(CLI::Range(0.0, 1.0))
+            ->capture_default_str();
+        command
+            ->add_option("--check", options->check,
+                         "a raw pair of the rig: measure how well its rows agree")
+            ->expected(2)
+            ->type_name("LEFT RIGHT");
+        command->add_flag("--json", options->json, "write the result as JSON");
+        command->callback([options] { import_foreign(*options); });
+    }};
+}
+
+}  // namespace vantage

@@ -1,0 +1,305 @@
+#include "common/calibration_forms/calibration_form.h"
+
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "common/config/calibration_file.h"
+#include "common/config/intrinsics_file.h"
+#include "tests/support/data_folder.h"
+#include "tests/support/thrown_sentence.h"
+
+namespace vantage {
+namespace {
+
+using testing::HasSubstr;
+
+/// A rig whose cameras are turned against each other and have lenses of their own.
+StereoCalibration some_rig(LensModel lens, std::size_t coefficients) {
+    StereoCalibration rig;
+    const std::vector<double> numbers{
+        -0.2812345678901234, 0.0734, 0.00021, 1.7e-05, 0.011, 0.02, -0.003, 0.0004};
+    for (CameraModel* camera : {&rig.left, &rig.right}) {
+        camera->width_px = 752;
+        camera->height_px = 480;
+        camera->lens = lens;
+        camera->distortion.assign(numbers.begin(),
+                                  numbers.begin() + static_cast<std::ptrdiff_t>(coefficients));
+        if (lens == LensModel::fisheye)
+            for (double& k : camera->distortion) k *= 0.1;
+    }
+    rig.left.fx_px = 458.654321012345;
+    rig.left.fy_px = 457.296;
+    rig.left.cx_px = 367.215;
+    rig.left.cy_px = 248.375;
+    rig.right.fx_px = 457.587;
+    rig.right.fy_px = 456.134;
+    rig.right.cx_px = 379.999;
+    rig.right.cy_px = 255.238;
+    rig.right_from_left.linear() =
+        Eigen::AngleAxisd(0.03, Eigen::Vector3d(0.1, 1, 0.2).normalized()).toRotationMatrix();
+    rig.right_from_left.translation() = Eigen::Vector3d(-0.11007379, 0.0003991, -0.00085372);
+    compute_rectification(rig, 0);
+    assume_place(rig);
+    return rig;
+}
+
+std::vector<FormFile> files_of(const std::vector<FormText>& texts) {
+    std::vector<FormFile> files;
+    for (const FormText& text : texts)
+        if (text.name != "points3D.txt") files.push_back(form_file_of(text.name, text.text));
+    return files;
+}
+
+double farthest_projection_px(const CameraModel& a, const CameraModel& b) {
+    double farthest = 0;
+    for (int y = 0; y <= 4; ++y)
+        for (int x = 0; x <= 4; ++x) {
+            const Eigen::Vector3d point =
+                a.unproject({x * (a.width_px - 1) / 4.0, y * (a.height_px - 1) / 4.0});
+            farthest = std::max(farthest, (*a.project(point) - *b.project(point)).norm());
+        }
+    return farthest;
+}
+
+void expect_same_rig(const StereoCalibration& rig, const FormCalibration& read,
+                     const std::string& form) {
+    ASSERT_EQ(read.cameras.size(), 2u) << form;
+    for (const bool is_left : {true, false}) {
+        const CameraModel& written = is_left ? rig.left : rig.right;
+        const CameraModel& back = read.cameras[is_left ? 0 : 1].model;
+        EXPECT_EQ(written.width_px, back.width_px) << form;
+        EXPECT_EQ(written.height_px, back.height_px) << form;
+        EXPECT_EQ(written.lens, back.lens) << form;
+        EXPECT_LT((written.K() - back.K()).cwiseAbs().maxCoeff(), 1e-9) << form;
+        for (std::size_t i = 0; i < std::max(written.distortion.size(), back.distortion.size());
+             ++i)
+            EXPECT_NEAR(i < written.distortion.size() ? written.distortion[i] : 0,
+                        i < back.distortion.size() ? back.distortion[i] : 0, 1e-9)
+                << form;
+        EXPECT_LT(farthest_projection_px(written, back), 0.01) << form;
+    }
+    ASSERT_TRUE(read.cameras[0].camera_from_frame && read.cameras[1].camera_from_frame) << form;
+    const Pose between =
+        *read.cameras[1].camera_from_frame * read.cameras[0].camera_from_frame->inverse();
+    EXPECT_LT((between.matrix() - rig.right_from_left.matrix()).cwiseAbs().maxCoeff(), 1e-9)
+        << form;
+}
+
+TEST(CalibrationForms, ComeBackFromEveryFormThatIsWritten) {
+    int written = 0;
+    for (const CalibrationForm& form : calibration_forms()) {
+        if (!form.write) continue;
+        ++written;
+        for (const LensModel lens : {LensModel::pinhole, LensModel::fisheye}) {
+            const StereoCalibration rig = some_rig(lens, 4);
+            const std::vector<FormFile> files = files_of(form.write(rig));
+            for (const FormFile& file : files) {
+                const auto found = form_of_file(file);
+                ASSERT_TRUE(found) << form.name << ' ' << file.path;
+                EXPECT_EQ(found->name, form.name);
+            }
+            expect_same_rig(rig, form.read(files, {}), form.name);
+        }
+    }
+    EXPECT_GE(written, 5);
+}
+
+TEST(CalibrationForms, RefuseLensesThatTheyCannotExpress) {
+    const StereoCalibration rig = some_rig(LensModel::pinhole, 8);
+    for (const CalibrationForm& form : calibration_forms()) {
+        if (!form.write) continue;
+        const std::string sentence = thrown_sentence([&] { form.write(rig); });
+        if (form.name == "kalibr" || form.name == "nerfstudio")
+            EXPECT_THAT(sentence, HasSubstr("cannot be written")) << form.name;
+        else
+            expect_same_rig(rig, form.read(files_of(form.write(rig)), {}), form.name);
+    }
+}
+
+FormCalibration read_one(const std::filesystem::path& name, const std::string& text,
+                         const FormSettings& settings = {}) {
+    const std::vector<FormFile> files{form_file_of(name, text)};
+    const auto form = form_of_file(files.front());
+    if (!form) fail("no form knows {}", name.string());
+    return form->read(files, settings);
+}
+
+Eigen::Vector3d right_in_left(const FormCalibration& read) {
+    return (*read.cameras.at(0).camera_from_frame * read.cameras.at(1).camera_from_frame->inverse())
+        .translation();
+}
+
+TEST(KalibrForm, ReadsChainsAndInertialUnits) {
+    const char* camera = R"(
+  camera_model: pinhole
+  distortion_coeffs: [-0.28, 0.07, 0.0002, 1.7e-05]
+  distortion_model: radtan
+  intrinsics: [458.6, 457.2, 367.2, 248.3]
+  resolution: [752, 480]
+  rostopic: /cam0/image_raw
+)";
+    const std::string pose =
+        "  - [1.0, 0.0, 0.0, {}]\n  - [0.0, 1.0, 0.0, 0.0]\n"
+        "  - [0.0, 0.0, 1.0, 0.0]\n  - [0.0, 0.0, 0.0, 1.0]\n";
+    const FormCalibration chain =
+        read_one("camchain.yaml", fmt::format("cam0:{}cam1:{}  T_cn_cnm1:\n{}", camera, camera,
+                                              fmt::format(fmt::runtime(pose), -0.11)));
+    EXPECT_TRUE(right_in_left(chain).isApprox(Eigen::Vector3d(0.11, 0, 0)));
+    EXPECT_EQ(chain.cameras[0].model.distortion[3], 1.7e-05);
+    const FormCalibration imu = read_one(
+        "imucam.yaml", fmt::format("%YAML:1.0\ncam0:{}  T_imu_cam:\n{}cam1:{}  T_imu_cam:\n{}",
+                                   camera, fmt::format(fmt::runtime(pose), 0.0), camera,
+                                   fmt::format(fmt::runtime(pose), 0.2)));
+    EXPECT_TRUE(right_in_left(imu).isApprox(Eigen::Vector3d(0.2, 0, 0)));
+    EXPECT_THAT(thrown_sentence(
+                    [] { read_one("a.yaml", "cam0:\n  camera_model: omni\n  intrinsics: [1]\n"); }),
+                HasSubstr("'omni' is not known"));
+}
+
+TEST(OpenCvForm, ReadsBothFormsOfTheSamplesAsYamlAndXml) {
+    const std::string intrinsics =
+        "%YAML:1.0\n---\nM1: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 500., "
+        "0., 320., 0., 501., 240., 0., 0., 1. ]\nD1: !!opencv-matrix\n   rows: 1\n   cols: 5\n   "
+        "dt: d\n   data: [ 0.1, 0., 0., 0., 0. ]\nM2: !!opencv-matrix\n   rows: 3\n   cols: 3\n   "
+        "dt: d\n   data: [ 510., 0., 320., 0., 511., 240., 0., 0., 1. ]\n";
+    const std::string extrinsics =
+        "<?xml version=\"1.0\"?>\n<opencv_storage>\n<R type_id=\"opencv-matrix\"><rows>3</rows>"
+        "<cols>3</cols><dt>d</dt><data>1. 0. 0. 0. 1. 0. 0. 0. 1.</data></R>\n<T "
+        "type_id=\"opencv-matrix\"><rows>3</rows><cols>1</cols><dt>d</dt><data>-60. 0. 0.</data>"
+        "</T>\n</opencv_storage>\n";
+    const std::vector<FormFile> files{form_file_of("intrinsics.yml", intrinsics),
+                                      form_file_of("extrinsics.xml", extrinsics)};
+    const auto form = form_of_file(files[1]);
+    ASSERT_TRUE(form);
+    EXPECT_EQ(form->name, "opencv");
+    EXPECT_THAT(thrown_sentence([&] { form->read(files, {}); }), HasSubstr("--size"));
+    const FormCalibration read = form->read(files, {.size_px = cv::Size(640, 480)});
+    EXPECT_TRUE(right_in_left(read).isApprox(Eigen::Vector3d(60, 0, 0)));
+    EXPECT_TRUE(read.unit_is_assumed);
+    EXPECT_EQ(read.cameras[1].model.fy_px, 511);
+    EXPECT_EQ(read.cameras[0].model.distortion[0], 0.1);
+    EXPECT_THAT(thrown_sentence([&] {
+                    form->read(std::span(files).first(1), {.size_px = cv::Size(640, 480)});
+                }),
+                HasSubstr("extrinsics"));
+    const FormCalibration single = read_one(
+        "camera.yml",
+        "%YAML:1.0\n---\ncalibration_time: \"Sun\"\nimage_width: 640\nimage_height: 480\n"
+        "camera_matrix: !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [ 500., 0., "
+        "320., 0., 500., 240., 0., 0., 1. ]\ndistortion_coefficients: !!opencv-matrix\n   rows: "
+        "5\n   cols: 1\n   dt: d\n   data: [ 0.1, 0., 0., 0., 0. ]\n");
+    ASSERT_EQ(single.cameras.size(), 1u);
+    EXPECT_EQ(single.cameras[0].model.width_px, 640);
+}
+
+TEST(OrbSlamForm, ReadsEveryGeneration) {
+    const FormCalibration first = read_one(
+        "new.yaml",
+        "%YAML:1.0\nFile.version: \"1.0\"\nCamera.type: \"PinHole\"\nCamera1.fx: "
+        "458.6\nCamera1.fy: "
+        "457.2\nCamera1.cx: 367.2\nCamera1.cy: 248.3\nCamera1.k1: -0.28\nCamera2.fx: "
+        "457.5\nCamera2.fy: 456.1\nCamera2.cx: 379.9\nCamera2.cy: 255.2\nCamera.width: "
+        "752\nCamera.height: 480\nStereo.T_c1_c2: !!opencv-matrix\n  rows: 4\n  cols: 4\n  dt: "
+        "f\n  data: [1,0,0,0.11,\n    0,1,0,0,\n    0,0,1,0,\n    0,0,0,1.0]\n");
+    EXPECT_TRUE(right_in_left(first).isApprox(Eigen::Vector3d(0.11, 0, 0)));
+    EXPECT_EQ(first.cameras[0].model.distortion[0], -0.28);
+    const FormCalibration rectified =
+        read_one("r.yaml",
+                 "Camera.type: \"Rectified\"\nCamera1.fx: 400\nCamera1.fy: 400\nCamera1.cx: "
+                 "320\nCamera1.cy: 240\nCamera.width: 640\nCamera.height: 480\nStereo.b: 0.06\n");
+    EXPECT_TRUE(right_in_left(rectified).isApprox(Eigen::Vector3d(0.06, 0, 0)));
+    const std::string side =
+        "{0}.height: 480\n{0}.width: 752\n{0}.D: !!opencv-matrix\n   rows: 1\n   cols: 5\n   dt: "
+        "d\n   data:[-0.28, 0.07, 0.0002, 1.7e-05, 0.0]\n{0}.K: !!opencv-matrix\n   rows: 3\n   "
+        "cols: 3\n   dt: d\n   data: [458.6, 0.0, 367.2, 0.0, 457.2, 248.3, 0.0, 0.0, "
+        "1.0]\n{0}.R:  !!opencv-matrix\n   rows: 3\n   cols: 3\n   dt: d\n   data: [1, 0, 0, 0, 1, "
+        "0, 0, 0, 1]\n{0}.P:  !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n   data: [435.2, "
+        "0.0, 367.4, {1}, 0.0, 435.2, 252.2, 0.0, 0.0, 0.0, 1.0, 0.0]\n";
+    const FormCalibration old =
+        read_one("EuRoC.yaml", "%YAML:1.0\nCamera.fx: 435.2\n" +
+                                   fmt::format(fmt::runtime(side), "LEFT", "0.0") +
+                                   fmt::format(fmt::runtime(side), "RIGHT", "-43.52"));
+    EXPECT_TRUE(right_in_left(old).isApprox(Eigen::Vector3d(0.1, 0, 0)));
+    EXPECT_EQ(old.cameras[1].model.distortion.size(), 4u);
+}
+
+TEST(DepthAiForm, FollowsItsChainOfSocketsInCentimetres) {
+    const auto camera = [](int to, double x_cm) {
+        return Tree{
+            {"cameraType", 0},
+            {"width", 1280},
+            {"height", 800},
+            {"intrinsicMatrix", {{800.0, 0.0, 640.0}, {0.0, 800.0, 400.0}, {0.0, 0.0, 1.0}}},
+            {"distortionCoeff",
+             std::vector<double>{1, -2, 0.001, 0, 3, 0.9, -1.9, 2.9, 0, 0, 0, 0, 0, 0}},
+            {"extrinsics",
+             {{"toCameraSocket", to},
+              {"rotationMatrix", {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}},
+              {"translation", {{"x", x_cm}, {"y", 0.0}, {"z", 0.0}}}}}};
+    };
+    // From left to right, from right to the colour camera between them.
+    const Tree tree{{"boardName", "OAK-D"},
+                    {"cameraData", Tree::array({Tree::array({0, camera(-1, 0)}),
+                                                Tree::array({1, camera(2, -7.5)}),
+                                                Tree::array({2, camera(0, 3.75)})})}};
+    const FormCalibration read = read_one("oak.json", tree.dump());
+    ASSERT_EQ(read.cameras.size(), 3u);
+    EXPECT_FALSE(read.unit_is_assumed);
+    const Pose right_from_left =
+        *read.cameras[2].camera_from_frame * read.cameras[1].camera_from_frame->inverse();
+    EXPECT_TRUE(right_from_left.translation().isApprox(Eigen::Vector3d(-0.075, 0, 0)));
+    EXPECT_EQ(read.cameras[1].model.distortion.size(), 8u);
+}
+
+TEST(AniposeForm, ReadsTablesWithPoses) {
+    const std::string camera =
+        "[cam_{0}]\nname = \"{1}\"\nsize = [1280, 720]\nmatrix = [[900.0, 0.0, 640.0], [0.0, "
+        "900.0, "
+        "360.0], [0.0, 0.0, 1.0]]\ndistortions = [0.1, 0.0, 0.0, 0.0, 0.0]\nrotation = [0.0, {2}, "
+        "0.0]\ntranslation = [{3}, 0.0, 0.0]\n";
+    const FormCalibration read = read_one(
+        "calibration.toml", fmt::format(fmt::runtime(camera), 0, "A", "0.0", "0.0") +
+                                fmt::format(fmt::runtime(camera), 1, "B", "0.1", "-300.0") +
+                                "[metadata]\nadjusted = false\n");
+    ASSERT_EQ(read.cameras.size(), 2u);
+    EXPECT_EQ(read.cameras[1].name, "B");
+    EXPECT_NEAR(right_in_left(read).norm(), 300, 1e-9);
+    EXPECT_TRUE(read.unit_is_assumed);
+}
+
+TEST(ColmapForm, TakesHalfPixelsAndNamesWithSpaces) {
+    const std::vector<FormFile> files{
+        form_file_of("images.txt",
+                     "# header\n1 1 0 0 0 0 0 0 1 A (1).jpg\n\n2 1 0 0 0 -0.2 0 0 1 "
+                     "A (2).jpg\n1 2 -1 4 5 7\n"),
+        form_file_of("cameras.txt", "1 SIMPLE_RADIAL 640 480 500 320.5 240.5 0.1\n")};
+    const FormCalibration read = form_of_file(files[0])->read(files, {});
+    ASSERT_EQ(read.cameras.size(), 2u);
+    EXPECT_EQ(read.cameras[0].model.cx_px, 320);
+    EXPECT_EQ(read.cameras[1].name, "A (2).jpg");
+    EXPECT_TRUE(right_in_left(read).isApprox(Eigen::Vector3d(0.2, 0, 0)));
+}
+
+TEST(ForeignCalibration, IsNamedByEveryReaderWithTheCommandThatBringsItIn) {
+    const TemporaryFolder folder;
+    for (const CalibrationForm& form : calibration_forms()) {
+        if (!form.write) continue;
+        const FormText text = form.write(some_rig(LensModel::pinhole, 4)).front();
+        const auto path = folder.path() / text.name;
+        std::ofstream(path) << text.text;
+        for (const std::string& sentence : {thrown_sentence([&] { load_calibration(path); }),
+                                            thrown_sentence([&] { load_intrinsics(path); })}) {
+            EXPECT_THAT(sentence, HasSubstr(form.program));
+            EXPECT_THAT(sentence, HasSubstr("vantage-calib import " + path.string()));
+        }
+    }
+    const auto own = folder.path() / "own.yaml";
+    std::ofstream(own)
+        << "%YAML:1.0\n---\nkind: \"vantage stereo calibration\"\nM1: 3\nR: 1\nT: 2\n";
+    EXPECT_THAT(thrown_sentence([&] { load_calibration(own); }), testing::Not(HasSubstr("OpenCV")));
+}
+
+}  // namespace
+}  // namespace vantage
