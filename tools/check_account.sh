@@ -21,7 +21,7 @@ account() { # place, jq expression: in minus everything counted
   done < <(jq -r ".rigs[] | \"\(.name) \($2) \(2 + 2 * .outages.restarts)\"" "$report")
 }
 account "inside the rig" '.rig | .captured - .published - .late'
-account "on the link" '.link | .offered - .sent - .send_dropped - .thinned'
+account "on the link" '.link | .offered - .sent - .send_dropped - .skipped'
 account "from link to host" '.link.sent - .link.lost - .host.received'
 account "inside the host" '.host | .received - .undecodable - .queue_dropped - .late - .duplicate - .unsynchronized - .out_of_step - .in_frame_sets'
 account "from set to picture" '.host | .in_frame_sets - .fused - .replaced - .dropped_at_start'

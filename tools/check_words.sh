@@ -11,7 +11,7 @@ words=(
   'wavering|wavers?'                             # flicker
   'novelty'                                      # source map
   'rehears\w*'                                   # warm up
-  '[A-Za-z_]*[Bb]ooks'                           # stats
+  '[A-Za-z_]*[Bb]ooks(?!_third)'                       # stats
   'wish\w*|\w*Wish\w*|\w+_wish\w*'               # request
   'stead(?:y|ied)[_ ]colours?|steadied'          # temporal denoising
   'better(?:ed|ing|ings|s)|Bettered\w*'          # multi-view refinement, refine

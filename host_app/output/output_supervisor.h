@@ -14,7 +14,7 @@ namespace vantage {
 class OutputSupervisor {
   public:
     struct Settings {
-        OutputFormat format;  ///< its encoder: the wish; empty: chosen by trying
+        OutputFormat format;  ///< the requested encoder; empty: the first one that works
         double pulse_rate_hz = 30;
         std::vector<std::string> urls;  ///< begun at once, unless they say start=off
     };

@@ -27,7 +27,7 @@ struct ProgrammePicture {
 class PictureSink {
   public:
     virtual ~PictureSink() = default;
-    /// For people; empty: it is no output of the programme, and not among them in the books.
+    /// Name for people; empty: the sink is no output of the programme and has no stats among them.
     virtual std::string name() const = 0;
     /// Never waits: what cannot be taken now is left out and counted. Throws Error if the sink has
     /// failed.

@@ -39,7 +39,8 @@ nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& statu
                          {"offered", host.counters.offered},
                          {"sent", host.counters.sent},
                          {"send_dropped", host.counters.send_dropped},
-                         {"thinned", host.counters.skipped},
+                         {"skipped", host.counters.skipped},
+                         {"thinned", host.counters.skipped},  // old name
                          {"fetched", host.fetched}});
     nlohmann::ordered_json source = nlohmann::ordered_json::object();
     for (const SourceCounter& counter : status.source_counters)

@@ -128,7 +128,7 @@ std::string rows(const ShaderLibrary& library, const BackgroundTruth& wanted, st
             write_error(wanted.pictures, fmt::format("set{}_rig{}", set, i), learnt.rigs[i].colour,
                         learnt.rigs[i].depth_m, depth_m, truth_m, parallax_px);
     }
-    return fmt::format("| {} | learnt |{}\n| {} | bettered |{}\n", set, learnt_errors.row(), set,
+    return fmt::format("| {} | learnt |{}\n| {} | refined |{}\n", set, learnt_errors.row(), set,
                        refined_errors.row());
 }
 

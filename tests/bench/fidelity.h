@@ -26,7 +26,7 @@ class Fidelity {
 };
 
 /// How much the error of consecutive pictures changes against the noise of a camera: 1 is what a
-/// real camera with that noise would waver.
+/// real camera with that noise would flicker.
 class Flicker {
   public:
     explicit Flicker(double noise_sigma) : noise_sigma_(noise_sigma) {}

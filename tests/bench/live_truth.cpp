@@ -53,7 +53,7 @@ int main(int argc, char** argv) {
     steps->add_flag("--without-times", without_times, "Only what does not depend on the machine");
     steps->add_option("--pictures", stepped.pictures, "Folder for pictures beside their truth");
     BackgroundTruth wanted_set;
-    CLI::App* set = app.add_subcommand("set", "How true the depth of a learnt set is");
+    CLI::App* set = app.add_subcommand("set", "How accurate the depth of a background is");
     set->add_option("--sets", wanted_set.sets, "0: the demo's")->delimiter(',');
     set->add_option("--rig-size", size, "Of the rigs");
     set->add_option("--preset", preset, "Of the rigs' matchers");

@@ -70,7 +70,7 @@ std::string own_matching_table(const ShaderLibrary& library) {
         "exact depth and from what `quality` finds. Wavering: standard deviation along time on a "
         "still stage against that of a camera with the same noise.\n\n"
         "| set | rigs apart (degrees) | exact: PSNR dB | SSIM | own: PSNR dB | SSIM | coverage | "
-        "wavering |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",
+        "flicker |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",
         size.width, size.height, noise_sigma);
     for (const std::uint64_t set : {0u, 1u, 2u, 4u, 5u, 6u})
         for (const double apart_deg : {20, 40}) text += row(library, set, apart_deg);

@@ -168,13 +168,13 @@ std::string played_table(const PlayedTruth& wanted) {
     }
     const ProgrammeStats& stats = played.report.programme;
     return fmt::format(
-        "The demo's rigs and a programme of {:g} pictures a second, quality {}, on {}: {} pictures "
+        "The demo's rigs and a programme of {:g} frames per second, quality {}, on {}: {} pictures "
         "after the first {:g} s, repeated ones too.\n\n"
-        "| against | PSNR dB | SSIM | debris |\n| --- | --- | --- | --- |\n"
+        "| against | PSNR dB | SSIM | outlier pixels |\n| --- | --- | --- | --- |\n"
         "| the instant shown | {:.2f} | {:.3f} | {:.1f} % |\n"
         "| the tick's own time | {:.2f} | {:.3f} | {:.1f} % |\n\n"
         "| | |\n| --- | --- |\n"
-        "| wavering while the camera flies | {:.1f} times a camera's noise |\n"
+        "| flicker while the camera flies | {:.1f} times a camera's noise |\n"
         "| ticks: all, reprojected, repeated, missed | {}, {}, {}, {} |\n"
         "| reprojected by: p50, p99 | {:.1f}, {:.1f} % of the width |\n"
         "| hand-over after the tick: p50, p99, most | {:.1f}, {:.1f}, {:.0f} ms |\n"

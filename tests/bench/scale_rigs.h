@@ -24,7 +24,7 @@ struct ScaleRigs {
     double rate_hz = 30, seconds = 10;
     int hosts = 1;  ///< that all have to be there before the first pulse
 };
-/// Serves so many rigs on free ports of loopback, each with socket, books and keys as in the
+/// Serves so many rigs on free ports of loopback, each with socket, counters and keys as in the
 /// rig's daemon. Writes stage.toml when they listen, and rigs.json at the end. Frames get their
 /// pulse's number and nothing else: filming, matching and packing are other computers' work.
 void serve_scale_rigs(const ScaleFolder& folder, const ScaleRigs& wanted);

@@ -276,8 +276,8 @@ std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& want
         "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}; {:g} "
         "instants a second, prepared at level {} and rendered at level {}; three cameras between "
         "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
-        "| synthesiser | set | PSNR dB | of the set | of performers | SSIM | debris | performers' "
-        "edges: mean error | wavering: set | performers |{}\n"
+        "| synthesiser | scene | PSNR dB | of the background | of performers | SSIM | outlier pixels | performers' "
+        "edges: mean error | flicker: background | performers |{}\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
         wanted.with_exact_depth ? "exact" : "own", wanted.knows_set ? ", a set learnt before" : "",

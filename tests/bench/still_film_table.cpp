@@ -150,10 +150,10 @@ void print_still_film_table(const ShaderLibrary& library) {
     fmt::print(
         "Films of the virtual stage, {} frames a second of {}x{}x{}, a second after their start: "
         "sensor noise of {} grey levels, exposure that drifts by {} %, performers who move. Each "
-        "frame by itself, and steadied as the daemon does it; of the pixels that stand still, in "
+        "frame by itself, and denoised as the daemon does it; of the pixels that stand still, in "
         "percent: those that differ by more than a pixel of disparity "
         "from one frame to the next / those that do within {} frames\n\n"
-        "| set | HH4 | quality | steadied | balanced | steadied | fast | steadied |\n"
+        "| scene | HH4 | quality | denoised | balanced | denoised | fast | denoised |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
         frames_per_s, size_px.width, size_px.height, disparities, noise_sigma, 100 * drift,
         measured_frames);
@@ -188,7 +188,7 @@ void print_still_film_table(const ShaderLibrary& library) {
         fmt::print(" **{:.1f} / {:.1f}** |", sums[i] / stage_frame_sets, sums[i + 1] / stage_frame_sets);
     fmt::print(
         "\n\nbad-2.0 in percent on these films, of what stands still / of what moves\n\n"
-        "| set | quality | steadied | balanced | steadied | fast | steadied |\n"
+        "| scene | quality | denoised | balanced | denoised | fast | denoised |\n"
         "| --- | --- | --- | --- | --- | --- | --- |\n{}\n",
         errors);
 }

@@ -109,10 +109,10 @@ std::optional<std::uint64_t> TimecodeClock::find(const TimeLabel& label, std::ui
 
 std::string TimecodeClock::why_never(const TimeLabel& label) const {
     if (!label.frame) return {};
-    if (*label.frame >= numbers_a_second_)
+    if (*label.frame >= numbers_per_second_)
         return fmt::format("does not exist at {:.5g} frames per second: its frames are 00 to {:02}",
-                           grid_.rate_hz(), numbers_a_second_ - 1);
-    const int dropped = is_drop_frame_ ? numbers_a_second_ / 15 : 0;
+                           grid_.rate_hz(), numbers_per_second_ - 1);
+    const int dropped = is_drop_frame_ ? numbers_per_second_ / 15 : 0;
     if (label.seconds == 0 && label.minutes % 10 != 0 && *label.frame < dropped)
         return fmt::format(
             "does not exist at {:.5g} frames per second: drop-frame code begins this minute with "

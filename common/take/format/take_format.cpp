@@ -182,7 +182,7 @@ std::string to_text(const FrameRecord& record) {
                                 {"offered", record.link.offered},
                                 {"sent", record.link.sent},
                                 {"send_dropped", record.link.send_dropped},
-                                {"thinned", record.link.skipped}};
+                                {"thinned", record.link.skipped}};  // old name of the file format
     if (record.colour_crc) json["colour_crc32"] = *record.colour_crc;
     if (record.depth_crc) json["depth_crc32"] = *record.depth_crc;
     json["header"] = base64(record.header);
@@ -211,7 +211,7 @@ FrameRecord frame_record_from(std::string_view text) {
                   number<std::uint64_t>(json, "late"), number<std::uint64_t>(json, "published"), 0};
     record.link = {number<std::uint64_t>(json, "offered"), number<std::uint64_t>(json, "sent"),
                    number<std::uint64_t>(json, "send_dropped"),
-                   number<std::uint64_t>(json, "thinned")};
+                   number<std::uint64_t>(json, "thinned")};  // old name of the file format
     record.colour_crc = crc_of(json, "colour_crc32");
     record.depth_crc = crc_of(json, "depth_crc32");
     record.header = from_base64(header->get_ref<const std::string&>());

@@ -16,7 +16,7 @@ class CommandIntake {
         FlightInput input;
         apply(call, input);
         const bool is_turn = call.command->argument == CommandArgument::steps;
-        return (is_turn || allowance_.take(now)) && operator_input_.put(input, now);
+        return (is_turn || budget_.take(now)) && operator_input_.put(input, now);
     }
 
   private:
@@ -24,7 +24,7 @@ class CommandIntake {
     static constexpr double commands_a_second = 200, commands_at_once = 100;
 
     OperatorInputBox& operator_input_;
-    MessageBudget allowance_{commands_a_second, commands_at_once};
+    MessageBudget budget_{commands_a_second, commands_at_once};
 };
 
 }  // namespace vantage

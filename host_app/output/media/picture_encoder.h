@@ -58,7 +58,7 @@ class PictureEncoder {
 };
 
 /// The first of known_encoders() that encodes pictures of these settings when it is tried; with
-/// `wish` that one. Tells in the log which it is, and why those before it are not. Throws Error if
+/// `request` that one. Tells in the log which it is, and why those before it are not. Throws Error if
 /// none does.
 std::string choose_encoder(const std::string& request, const EncoderSettings& settings);
 

@@ -107,7 +107,7 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
     const std::optional<LtcRate> rate = ltc_rate_of(format.rate_hz);
     if (!rate)
         fail(
-            "the output {}: there is no linear time code of {:g} pictures a second, only of 24, "
+            "the output {}: there is no linear time code of {:g} frames per second, only of 24, "
             "25, 29.97, 30, 50, 59.94 and 60",
             url.shown, format.rate_hz);
     OutputPlan plan;

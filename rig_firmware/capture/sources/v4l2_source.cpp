@@ -10,7 +10,7 @@ SourceEntry v4l2_source_entry() {
                 return make_camera_source(
                     config, [source = config.source](const std::string& device, bool side_by_side) {
                         return std::make_unique<V4l2Camera>(
-                            V4l2Wish{.path = device,
+                            V4l2Settings{.path = device,
                                      .width_px = source.width_px * (side_by_side ? 2 : 1),
                                      .height_px = source.height_px,
                                      .rate_hz = PulseGrid(source.rate_hz).rate_hz(),

@@ -64,7 +64,7 @@ V4l2Camera::Mapping::~Mapping() {
     if (start_) ::munmap(start_, length_);
 }
 
-V4l2Camera::V4l2Camera(const V4l2Wish& request)
+V4l2Camera::V4l2Camera(const V4l2Settings& request)
     : device_(request.path), lender_([this](unsigned index) { take_back(index); }) {
     if (!device_.captures())
         fail(
@@ -93,7 +93,7 @@ V4l2Camera::~V4l2Camera() {
     }
 }
 
-bool V4l2Camera::set_format(PixelFormat format, const V4l2Wish& request, bool only_try,
+bool V4l2Camera::set_format(PixelFormat format, const V4l2Settings& request, bool only_try,
                             cv::Size& offered) {
     v4l2_format f{};
     f.type = device_.buffer_type();
@@ -131,7 +131,7 @@ bool V4l2Camera::set_format(PixelFormat format, const V4l2Wish& request, bool on
     return true;
 }
 
-void V4l2Camera::choose_format(const V4l2Wish& request) {
+void V4l2Camera::choose_format(const V4l2Settings& request) {
     std::vector<PixelFormat> candidates;
     std::string listed;
     const std::vector<V4l2Format> formats = device_.formats();

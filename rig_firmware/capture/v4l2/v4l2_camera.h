@@ -19,7 +19,7 @@
 
 namespace vantage {
 
-struct V4l2Wish {
+struct V4l2Settings {
     std::filesystem::path path;
     int width_px = 0, height_px = 0;  ///< of what the device delivers
     double rate_hz = 0;
@@ -35,8 +35,8 @@ struct V4l2Wish {
 class V4l2Camera final : public SensorCamera {
   public:
     /// Opens, sets the mode and the controls, and starts. Throws Error that lists what the driver
-    /// has if it cannot do as wished.
-    explicit V4l2Camera(const V4l2Wish& request);
+    /// has if it does not support the settings.
+    explicit V4l2Camera(const V4l2Settings& request);
     ~V4l2Camera() override;
     V4l2Camera(const V4l2Camera&) = delete;
     V4l2Camera& operator=(const V4l2Camera&) = delete;
@@ -75,8 +75,8 @@ class V4l2Camera final : public SensorCamera {
         std::size_t length_ = 0;
     };
 
-    void choose_format(const V4l2Wish& request);
-    bool set_format(PixelFormat format, const V4l2Wish& request, bool only_try, cv::Size& offered);
+    void choose_format(const V4l2Settings& request);
+    bool set_format(PixelFormat format, const V4l2Settings& request, bool only_try, cv::Size& offered);
     void set_rate(double rate_hz);
     void set_controls(const std::map<std::string, int>& requests);
     void map_buffers(bool share_them);

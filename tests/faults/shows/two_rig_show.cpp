@@ -184,10 +184,10 @@ void TwoRigShow::expect_balanced(const nlohmann::json& rig) {
     const auto count = [&](const char* place, const char* what) {
         return rig[place][what].get<std::int64_t>();
     };
-    EXPECT_EQ(count("host", "in_sets"), count("host", "fused") + count("host", "superseded") +
+    EXPECT_EQ(count("host", "in_frame_sets"), count("host", "fused") + count("host", "replaced") +
                                             count("host", "in_dropped_sets"))
         << rig;
-    const std::int64_t open = count("host", "received") - count("host", "in_sets") -
+    const std::int64_t open = count("host", "received") - count("host", "in_frame_sets") -
                               count("host", "late") - count("host", "duplicate") -
                               count("host", "unsynchronized") - count("host", "out_of_step");
     EXPECT_GE(open, 0) << rig;
@@ -197,7 +197,7 @@ void TwoRigShow::expect_balanced(const nlohmann::json& rig) {
     EXPECT_GE(under_way, 0) << rig;
     EXPECT_LE(under_way, 4) << "the credits of a host: " << rig;
     const std::int64_t waiting = count("link", "offered") - count("link", "sent") -
-                                 count("link", "send_dropped") - count("link", "thinned");
+                                 count("link", "send_dropped") - count("link", "skipped");
     EXPECT_GE(waiting, 0) << rig;
     EXPECT_LE(waiting, 4) << "the queue of a host: " << rig;
     EXPECT_EQ(count("host", "undecodable"), 0) << rig;
@@ -214,7 +214,7 @@ void TwoRigShow::expect_unharmed(ChildProgram& rig) {
     for (const nlohmann::json& host : own["hosts"]) {
         const auto waiting =
             host["offered"].get<std::int64_t>() - host["sent"].get<std::int64_t>() -
-            host["send_dropped"].get<std::int64_t>() - host["thinned"].get<std::int64_t>();
+            host["send_dropped"].get<std::int64_t>() - host["skipped"].get<std::int64_t>();
         EXPECT_GE(waiting, 0) << own;
         EXPECT_LE(waiting, 4) << "the queue of a host: " << own;
     }

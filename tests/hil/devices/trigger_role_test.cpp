@@ -25,7 +25,7 @@ namespace {
 using namespace std::chrono_literals;
 using testing::HasSubstr;
 
-/// Pulses every two seconds, and a camera that runs by itself at a picture a second and stamps it
+/// Pulses every two seconds, and a camera that runs by itself at one frame per second and stamps it
 /// as it is taken: whatever its phase, one picture of two lies within a quarter of a period of its
 /// pulse, and the other of none. The delay of its stamps is more than that quarter, so that a
 /// picture never comes before its pulse, as it cannot with a sensor on a wire.

@@ -51,7 +51,7 @@ TEST_P(Skews, are_found_to_a_tenth_of_a_millisecond) {
 
 INSTANTIATE_TEST_SUITE_P(at_exposures, Skews, testing::Values(2000, 3100, 5000, 8000));
 
-TEST(StageSync, holds_the_centres_of_unlike_exposures_against_each_other) {
+TEST(StageSync, compares_the_centres_of_different_exposures) {
     const SyncBar bar(12, microseconds(127));
     const std::vector<SensorFilm> films = {
         FilmedSensor{.exposure = microseconds(2000)}.film(bar, "A", true),

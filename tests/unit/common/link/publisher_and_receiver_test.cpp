@@ -253,7 +253,7 @@ TEST_F(LinkTest, ARigSkipsPulsesAsRequested) {
     StageReceiver host(stage_of(rig));
     ASSERT_TRUE(eventually([&] { return connected(host); }));
     host.ask("rig-a", true, 3);
-    // The wish is in force once a frame that it leaves out is counted so.
+    // The request is in force once a frame that it leaves out is counted as skipped.
     std::uint64_t k = 1;
     ASSERT_TRUE(eventually([&] {
         rig.publish(make_frame(k));

@@ -383,7 +383,7 @@ TEST_F(HostLinksFetchTest, ARigWithoutRecordingsRefusesAndCounts) {
     EXPECT_NE(all.back().second.trouble, "");
     EXPECT_EQ(links_.refused_fetches(), 1u);
     ask(5, {7, 100, 110, 5});
-    EXPECT_EQ(links_.refused_fetches(), 1u) << "the same wish again";
+    EXPECT_EQ(links_.refused_fetches(), 1u) << "the same request again";
 }
 
 TEST_F(HostLinksFetchTest, NothingIsLookedUpForADisconnectedHost) {

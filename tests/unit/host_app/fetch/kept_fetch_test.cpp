@@ -169,7 +169,7 @@ TEST_F(KeptFetchTest, ContinuesAfterARestartOfTheRig) {
     RigConfig::Stream stream = open_stream();
     stream.bind = north->endpoint();
     KeptFetch fetch = all();
-    fetch.bytes_s = 60e3;  // some pictures a second
+    fetch.bytes_s = 60e3;  // some frames per second
     std::thread again([&] {
         const MonotonicTime end = MonotonicClock::now() + patience;
         while (MonotonicClock::now() < end &&

@@ -151,7 +151,7 @@ TEST(MultiViewRefinementOnTheStage, WinsBackWhatSmoothErrorsOfDisparityCost) {
     const ShaderLibrary shaders;
     VirtualStage stage(shaders);
     std::vector<DepthView> views = film_arc(stage, width_px, height_px);
-    const double exact_db = midway_psnr_db(stage, shaders, views, "consensus-exact");
+    const double exact_db = midway_psnr_db(stage, shaders, views, "refinement-exact");
     cv::RNG random(3);
     for (DepthView& view : views) {
         cv::Mat1f error_px(view.depth_m.size());
@@ -162,10 +162,10 @@ TEST(MultiViewRefinementOnTheStage, WinsBackWhatSmoothErrorsOfDisparityCost) {
         cv::Mat1f disparity_px = f_baseline / view.depth_m + error_px;
         view.depth_m = f_baseline / disparity_px;
     }
-    const double refined_db = midway_psnr_db(stage, shaders, views, "consensus-bettered");
+    const double refined_db = midway_psnr_db(stage, shaders, views, "refinement-refined");
     // Without a baseline depth counts as measured some other way, and stays as it is.
     for (DepthView& view : views) view.baseline_m = 0;
-    const double as_they_are_db = midway_psnr_db(stage, shaders, views, "consensus-as-they-are");
+    const double as_they_are_db = midway_psnr_db(stage, shaders, views, "refinement-none");
     EXPECT_GE(refined_db, as_they_are_db + 3);
     EXPECT_GE(refined_db, exact_db - 6);
 }

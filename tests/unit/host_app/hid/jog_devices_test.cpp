@@ -10,7 +10,7 @@ namespace {
 using namespace std::chrono_literals;
 using Kind = DeckEvent::Kind;
 
-class JogDeckTest : public testing::Test {
+class JogDevicesTest : public testing::Test {
   protected:
     static std::shared_ptr<ScriptedDevice> xpress(const char* path = "/dev/hidraw0") {
         return std::make_shared<ScriptedDevice>(
@@ -40,7 +40,7 @@ class JogDeckTest : public testing::Test {
     ScriptedSockets sockets_;
 };
 
-TEST_F(JogDeckTest, ReadsWhatIsPluggedInAtTheStart) {
+TEST_F(JogDevicesTest, ReadsWhatIsPluggedInAtTheStart) {
     const auto device = xpress();
     sockets_.plug(device);
     const auto deck = this->deck();
@@ -53,7 +53,7 @@ TEST_F(JogDeckTest, ReadsWhatIsPluggedInAtTheStart) {
     EXPECT_EQ(event.profile->name, "Contour ShuttleXpress");
 }
 
-TEST_F(JogDeckTest, NoticesPluggingInAndOutAndStartsTheCounterAnew) {
+TEST_F(JogDevicesTest, NoticesPluggingInAndOutAndStartsTheCounterAnew) {
     const auto deck = this->deck();
     auto device = xpress();
     sockets_.plug(device);
@@ -71,7 +71,7 @@ TEST_F(JogDeckTest, NoticesPluggingInAndOutAndStartsTheCounterAnew) {
     EXPECT_EQ(next(*deck).event.value, -1) << "and not 188 at once";
 }
 
-TEST_F(JogDeckTest, ReadsSeveralWheelsAtOnce) {
+TEST_F(JogDevicesTest, ReadsSeveralWheelsAtOnce) {
     const auto first = xpress("/dev/hidraw0"), second = xpress("/dev/hidraw1");
     sockets_.plug(first);
     sockets_.plug(second);
@@ -84,7 +84,7 @@ TEST_F(JogDeckTest, ReadsSeveralWheelsAtOnce) {
     EXPECT_EQ(next(*deck).path, "/dev/hidraw0");
 }
 
-TEST_F(JogDeckTest, KeepsTryingADeviceThatMayNotBeOpenedAndTellsWhy) {
+TEST_F(JogDevicesTest, KeepsTryingADeviceThatMayNotBeOpenedAndTellsWhy) {
     const auto device = xpress();
     device->refusal = "it may not be opened";
     sockets_.plug(device);
@@ -98,7 +98,7 @@ TEST_F(JogDeckTest, KeepsTryingADeviceThatMayNotBeOpenedAndTellsWhy) {
     EXPECT_EQ(device_once(*deck, [](const auto& d) { return d.usable; }).fault, "");
 }
 
-TEST_F(JogDeckTest, CountsReportsThatAreNone) {
+TEST_F(JogDevicesTest, CountsReportsThatAreNone) {
     const auto device = xpress();
     sockets_.plug(device);
     const auto deck = this->deck();
@@ -110,7 +110,7 @@ TEST_F(JogDeckTest, CountsReportsThatAreNone) {
     EXPECT_EQ(device_once(*deck, [](const auto& d) { return d.unread > 0; }).unread, 1u);
 }
 
-TEST_F(JogDeckTest, ShowsRawReportsWhereTheyAreAskedFor) {
+TEST_F(JogDevicesTest, ShowsRawReportsWhereTheyAreAskedFor) {
     const auto device = xpress();
     sockets_.plug(device);
     const auto deck = this->deck(true);
@@ -120,7 +120,7 @@ TEST_F(JogDeckTest, ShowsRawReportsWhereTheyAreAskedFor) {
     EXPECT_EQ(next(*deck).kind, Kind::control);
 }
 
-TEST_F(JogDeckTest, LeavesOtherDevicesAlone) {
+TEST_F(JogDevicesTest, LeavesOtherDevicesAlone) {
     sockets_.plug(std::make_shared<ScriptedDevice>(JogPlace{
         .path = "/dev/hidraw7", .id = {0x046d, 0xc31c}, .name = "Keyboard", .serial = {}}));
     const auto device = xpress();
@@ -131,7 +131,7 @@ TEST_F(JogDeckTest, LeavesOtherDevicesAlone) {
     EXPECT_TRUE(deck->devices().empty());
 }
 
-TEST_F(JogDeckTest, LooksOnAfterAFaultOfTheBusAndReadsWhatIsOpen) {
+TEST_F(JogDevicesTest, LooksOnAfterAFaultOfTheBusAndReadsWhatIsOpen) {
     const auto first = xpress();
     sockets_.plug(first);
     const auto deck = this->deck();
@@ -150,7 +150,7 @@ TEST_F(JogDeckTest, LooksOnAfterAFaultOfTheBusAndReadsWhatIsOpen) {
     EXPECT_EQ(event.path, "/dev/hidraw1");
 }
 
-TEST_F(JogDeckTest, AHeldRingLetsGoWhenItsWheelIsPulledOut) {
+TEST_F(JogDevicesTest, AHeldRingLetsGoWhenItsWheelIsPulledOut) {
     const auto device = xpress();
     sockets_.plug(device);
     const auto deck = this->deck();

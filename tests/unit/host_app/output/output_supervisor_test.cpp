@@ -36,7 +36,7 @@ class OutputSupervisorTest : public testing::Test {
 TEST_F(OutputSupervisorTest, GivesEveryOutputTheCleanPicture) {
     OutputSupervisor desk(settings({at("a.mkv"), at("b.mp4")}));
     const auto sink = desk.sink();
-    EXPECT_EQ(sink->name(), "") << "they have books of their own";
+    EXPECT_EQ(sink->name(), "") << "they have stats of their own";
     give(desk, *sink, 0, 20);
     desk.finish();
     for (const char* name : {"a.mkv", "b.mp4"}) {

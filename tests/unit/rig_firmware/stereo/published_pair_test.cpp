@@ -35,7 +35,7 @@ class Tsukuba : public testing::Test {
 
 constexpr MatchPreset presets[] = {MatchPreset::quality, MatchPreset::balanced, MatchPreset::fast};
 
-TEST_F(Tsukuba, BooksThatLookAlikeHaveNoFalseBarBeforeThem) {
+TEST_F(Tsukuba, RepeatedSpinesHaveNoFalseBarBeforeThem) {
     const cv::Rect stats(40, 40, 70, 50);
     double farthest = 0, nearest = 0;
     cv::minMaxLoc(truth_px_(stats), &farthest, &nearest);
