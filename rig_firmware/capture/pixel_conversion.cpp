@@ -101,7 +101,7 @@ std::vector<PicturePlane> planes_of(const RawPicture& picture) {
 }
 
 ColourImage to_colour(const RawPicture& picture) {
-    const int width = picture.width_px, height = picture.height_px;
+    const int height = picture.height_px;
     if (picture.format == PixelFormat::mjpg) return jpeg_to_colour(picture);
     const std::size_t stride = checked_bytes_per_line(picture);
     ColourImage colour;
