@@ -10,11 +10,11 @@
 namespace vantage {
 
 struct ImportSettings {
-    std::string left, right;     ///< names of the cameras of the rig; empty: found out
+    std::string left = {}, right = {};  ///< names of the cameras of the rig; empty: found out
     double metres_per_unit = 0;  ///< of the file's lengths; 0: as the form defines, else metres
     double baseline_m = 0;       ///< measured between the cameras: sets the scale; 0: not stated
     double alpha = 0;            ///< of the rectification, as compute_rectification takes it
-    FormSettings form;
+    FormSettings form = {};
 };
 
 struct ImportedCalibration {
