@@ -15,6 +15,7 @@
 #include "tests/hil/devices/uinput_wheel.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/source_folder.h"
 
 namespace vantage {
@@ -44,19 +45,15 @@ class JogWheel : public testing::Test {
                                "[axes.jog]\naction = \"wheel\"\n[buttons]\nb8 = \"freeze\"\n";
         return file;
     }
-    /// Waits until `ready` holds; false after minutes, which emulation may take.
+    /// Emulation is slow, so that an event may take minutes.
     template <class Condition>
-    static bool comes(const Condition& ready) {
-        for (int i = 0; i < 12000; ++i) {
-            if (ready()) return true;
-            std::this_thread::sleep_for(50ms);
-        }
-        return false;
+    static bool eventually(const Condition& condition) {
+        return vantage::eventually(condition, 10min, 50ms);
     }
     /// Waits for a part of what the program says behind `read`, and moves that behind the part.
-    static bool comes_after(const ChildProgram& program, std::size_t& read,
-                            const std::string& part) {
-        return comes([&] {
+    static bool eventually_prints(const ChildProgram& program, std::size_t& read,
+                                  const std::string& part) {
+        return eventually([&] {
             const std::size_t found = program.out().find(part, read);
             if (found != std::string::npos) read = found + part.size();
             return found != std::string::npos;
@@ -81,7 +78,7 @@ class JogWheel : public testing::Test {
 
 TEST_F(JogWheel, CanBeTriedWithoutOne) {
     const auto watching = monitor();
-    ASSERT_TRUE(comes([&] { return holds(watching->err(), "move a jog wheel"); }));
+    ASSERT_TRUE(eventually([&] { return holds(watching->err(), "move a jog wheel"); }));
     const std::filesystem::path words = folder_.path() / "words";
     std::ofstream(words) << "wait 1\nnonsense\njog 2\nshuttle -7\nb3\nwait 1\n";
     const ProgramResult simulated = run_to_end(
@@ -92,7 +89,8 @@ TEST_F(JogWheel, CanBeTriedWithoutOne) {
     for (const char* line : {R"({"event":"plugged","name":"Contour Design ShuttleXpress"})",
                              R"({"event":"moved","words":"jog 2","reports":[[0,0,0,0,0],[0,1,)"})
         EXPECT_THAT(simulated.out, HasSubstr(line));
-    EXPECT_TRUE(comes([&] { return holds(watching->out(), "disconnected from"); })) << watching->out();
+    EXPECT_TRUE(eventually([&] { return holds(watching->out(), "disconnected from"); }))
+        << watching->out();
     for (const char* event : {"ShuttleXpress  connected", "jog +1", "shuttle -1", "b3 pressed"})
         EXPECT_THAT(watching->out(), HasSubstr(event));
 }
@@ -100,16 +98,18 @@ TEST_F(JogWheel, CanBeTriedWithoutOne) {
 TEST_F(JogWheel, ReportsComeThroughTheKernelAsEvents) {
     std::optional<UhidWheel> wheel(xpress());
     const auto program = monitor();
-    ASSERT_TRUE(comes([&] { return holds(program->out(), "connected at"); })) << program->err();
+    ASSERT_TRUE(eventually([&] { return holds(program->out(), "connected at"); }))
+        << program->err();
     wheel->send({0, 100, 0, 0, 0});
     wheel->send({0, 103, 0, 0x10, 0});
     wheel->send({0xfe, 103, 0, 0, 0});
-    EXPECT_TRUE(comes([&] { return holds(program->out(), "shuttle -0.286"); }));
+    EXPECT_TRUE(eventually([&] { return holds(program->out(), "shuttle -0.286"); }));
     EXPECT_THAT(program->out(), HasSubstr("jog +3"));
     EXPECT_THAT(program->out(), HasSubstr("b1 pressed"));
     EXPECT_THAT(program->out(), HasSubstr("b1 released"));
     wheel.reset();
-    EXPECT_TRUE(comes([&] { return holds(program->out(), "disconnected from"); })) << program->out();
+    EXPECT_TRUE(eventually([&] { return holds(program->out(), "disconnected from"); }))
+        << program->out();
     program->send_signal(SIGINT);
     EXPECT_EQ(program->wait().status, 130);
 }
@@ -145,7 +145,7 @@ TEST_F(JogWheel, AWheelOfEachHidFamilyIsPluggedInAndOutAndInAgain) {
         const auto program = monitor({"--json"});
         std::size_t read = 0;
         const auto comes_next = [&](const std::string& part) {
-            return comes_after(*program, read, part);
+            return eventually_prints(*program, read, part);
         };
         for (int time = 0; time < 2; ++time) {
             const UhidWheel plugged(wheel.kind);
@@ -162,7 +162,7 @@ TEST_F(JogWheel, APowerMateIsReadAsTheInputDeviceThatTheKernelMakesOfIt) {
     const auto program = monitor({"--json"});
     std::size_t read = 0;
     const auto comes_next = [&](const std::string& part) {
-        return comes_after(*program, read, part);
+        return eventually_prints(*program, read, part);
     };
     for (int time = 0; time < 2; ++time) {
         const UinputWheel wheel;
@@ -184,9 +184,9 @@ TEST_F(JogWheel, APowerMateIsReadAsTheInputDeviceThatTheKernelMakesOfIt) {
 TEST_F(JogWheel, OneThatIsOnlyDescribedIsReadToo) {
     const UhidWheel wheel(unknown_wheel());
     const auto program = monitor({"--wheels", describe_unknown_wheel(), "--json"});
-    ASSERT_TRUE(comes([&] { return holds(program->out(), "plugged"); })) << program->err();
+    ASSERT_TRUE(eventually([&] { return holds(program->out(), "plugged"); })) << program->err();
     wheel.send({9, 9, 0xfd, 9, 0x80});
-    EXPECT_TRUE(comes([&] { return holds(program->out(), R"("control":"b8","value":1.0)"); }));
+    EXPECT_TRUE(eventually([&] { return holds(program->out(), R"("control":"b8","value":1.0)"); }));
     EXPECT_THAT(program->out(), HasSubstr(R"("control":"jog","value":-3.0)"));
 }
 
@@ -195,7 +195,7 @@ TEST_F(JogWheel, RulesLetAnOperatorUseItAndAFaultNamesThem) {
     const std::string described = describe_unknown_wheel();
     std::filesystem::permissions(folder_.path(), std::filesystem::perms::all);
     ProgramResult result;
-    EXPECT_TRUE(comes([&] {
+    EXPECT_TRUE(eventually([&] {
         result = list_as("input", described);
         return holds(result.out, "ShuttleXpress  ready");
     })) << result.out
@@ -235,14 +235,14 @@ TEST_F(JogWheel, OpensASpeedEditorByItsHandshake) {
     for (int time = 0; time < 2; ++time) {
         answer->store(0);
         const UhidWheel wheel(kind);
-        ASSERT_TRUE(comes_after(*program, read, "connected at")) << program->err();
+        ASSERT_TRUE(eventually_prints(*program, read, "connected at")) << program->err();
         ASSERT_EQ(answer->load(), right_answer) << "it is silent";
         wheel.send({3, 0, 0x00, 0x01, 0, 0, 255});
-        EXPECT_TRUE(comes_after(*program, read, "jog +1")) << program->out();
+        EXPECT_TRUE(eventually_prints(*program, read, "jog +1")) << program->out();
         wheel.send({4, 0x1a, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0});
-        EXPECT_TRUE(comes_after(*program, read, "source pressed")) << program->out();
+        EXPECT_TRUE(eventually_prints(*program, read, "source pressed")) << program->out();
     }
-    EXPECT_TRUE(comes_after(*program, read, "disconnected from")) << program->out();
+    EXPECT_TRUE(eventually_prints(*program, read, "disconnected from")) << program->out();
 }
 
 TEST_F(JogWheel, FliesTheVirtualCameraAndHoldsItWhileItIsUnplugged) {
@@ -268,16 +268,17 @@ TEST_F(JogWheel, FliesTheVirtualCameraAndHoldsItWhileItIsUnplugged) {
         const std::size_t last = log.rfind("azimuth ");
         return last != std::string::npos && log.compare(last + 8, azimuth.size(), azimuth) == 0;
     };
-    ASSERT_TRUE(comes([&] { return holds(live.err(), "is ready"); })) << live.err();
-    ASSERT_TRUE(comes([&] { return camera_is_at("0.0 "); })) << live.err() << rig.err();
+    ASSERT_TRUE(eventually([&] { return holds(live.err(), "is ready"); })) << live.err();
+    ASSERT_TRUE(eventually([&] { return camera_is_at("0.0 "); })) << live.err() << rig.err();
     wheel->send({0, 250, 0, 0, 0});
     wheel->send({0, 14, 0, 0, 0});
-    EXPECT_TRUE(comes([&] { return camera_is_at("20.0 "); })) << live.err();
+    EXPECT_TRUE(eventually([&] { return camera_is_at("20.0 "); })) << live.err();
 
     wheel->send({0x07, 14, 0, 0, 0});
-    EXPECT_TRUE(comes([&] { return !camera_is_at("20.0 "); })) << "the ring is held at its end";
+    EXPECT_TRUE(eventually([&] { return !camera_is_at("20.0 "); }))
+        << "the ring is held at its end";
     wheel.reset();
-    ASSERT_TRUE(comes([&] { return holds(live.err(), "is gone"); })) << live.err();
+    ASSERT_TRUE(eventually([&] { return holds(live.err(), "is gone"); })) << live.err();
     // Two looks at it after the last of the movement; one is logged every two seconds.
     std::this_thread::sleep_for(5s);
     const auto azimuth_now = [&] {
@@ -290,11 +291,13 @@ TEST_F(JogWheel, FliesTheVirtualCameraAndHoldsItWhileItIsUnplugged) {
     EXPECT_EQ(azimuth_now(), held) << live.err();
 
     wheel.emplace(xpress());
-    ASSERT_TRUE(comes([&] { return live.err().rfind("is ready") > live.err().find("is gone"); }))
-        << live.err();
+    ASSERT_TRUE(eventually([&] {
+        return live.err().rfind("is ready") > live.err().find("is gone");
+    })) << live.err();
     wheel->send({0, 3, 0, 0, 0});
     wheel->send({0, 0, 0, 0, 0});
-    EXPECT_TRUE(comes([&] { return std::abs(azimuth_now() - (held - 3)) < 0.11; })) << live.err();
+    EXPECT_TRUE(eventually([&] { return std::abs(azimuth_now() - (held - 3)) < 0.11; }))
+        << live.err();
     live.send_signal(SIGINT);
     const ProgramResult result = live.wait();
     ASSERT_EQ(result.status, 130) << result.err;

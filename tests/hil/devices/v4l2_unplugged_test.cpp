@@ -11,6 +11,7 @@
 #include "common/config/calibration_file.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "tests/hil/devices/rig_process.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -25,12 +26,8 @@ void set_bound(bool bound) {
     if (!file) fail("vivid cannot be {}", bound ? "bound" : "unbound");
 }
 
-bool comes(const RigProcess& rig, const std::string& sentence) {
-    for (int i = 0; i < 1200; ++i) {
-        if (rig.log().find(sentence) != std::string::npos) return true;
-        std::this_thread::sleep_for(100ms);
-    }
-    return false;
+bool eventually_logs(const RigProcess& rig, const std::string& sentence) {
+    return eventually([&] { return rig.log().find(sentence) != std::string::npos; }, 10min, 100ms);
 }
 
 TEST(V4l2Unplugged, CameraIsUsedAgainByTheSameDaemonWhenItIsBack) {
@@ -43,11 +40,11 @@ TEST(V4l2Unplugged, CameraIsUsedAgainByTheSameDaemonWhenItIsBack) {
                    "[match]\npreset = \"fast\"\ndisparities = 16\nsteady = false\n");
     const auto before = rig.next_frame();
     set_bound(false);
-    EXPECT_TRUE(comes(rig, "frames are missed until the cameras deliver again"));
+    EXPECT_TRUE(eventually_logs(rig, "frames are missed until the cameras deliver again"));
     EXPECT_FALSE(std::filesystem::exists("/dev/video14"));
     std::this_thread::sleep_for(3s);
     set_bound(true);
-    EXPECT_TRUE(comes(rig, "the cameras deliver again\n")) << rig.log();
+    EXPECT_TRUE(eventually_logs(rig, "the cameras deliver again\n")) << rig.log();
     const TaiTime back = TaiClock::now();
     std::shared_ptr<const RigFrame> frame;
     do {

@@ -3,8 +3,8 @@
 #include <cstdlib>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 
 namespace vantage {
@@ -14,16 +14,6 @@ std::vector<std::string> steered(std::vector<std::string> arguments, int port, i
     arguments.insert(arguments.end(),
                      {"--control", fmt::format("osc://:{}?lamps=127.0.0.1:{}", port, lamps)});
     return arguments;
-}
-
-/// Waits for a condition; false after a minute.
-template <class Condition>
-bool comes(Condition condition) {
-    for (int i = 0; i < 3000; ++i) {
-        if (condition()) return true;
-        usleep(20'000);
-    }
-    return false;
 }
 
 }  // namespace
@@ -43,7 +33,7 @@ bool SteeredShow::send(const std::string& words) const {
 }
 
 bool SteeredShow::is_told(const std::string& words) const {
-    return comes([&] { return watcher_.out().find(words) != std::string::npos; });
+    return eventually([&] { return watcher_.out().find(words) != std::string::npos; });
 }
 
 std::string SteeredShow::lamp(const std::string& name) const {
@@ -64,13 +54,13 @@ std::string SteeredShow::lamp(const std::string& name) const {
 
 testing::AssertionResult SteeredShow::shows(const std::string& name,
                                             const std::string& value) const {
-    if (comes([&] { return lamp(name) == value; })) return testing::AssertionSuccess();
+    if (eventually([&] { return lamp(name) == value; })) return testing::AssertionSuccess();
     return testing::AssertionFailure()
            << name << " is " << lamp(name) << ", not " << value << "; notice: " << lamp("notice");
 }
 
 bool SteeredShow::goes_past(const std::string& name, double value) const {
-    return comes([&] {
+    return eventually([&] {
         const std::string now = lamp(name);
         return !now.empty() && std::stod(now) > value;
     });

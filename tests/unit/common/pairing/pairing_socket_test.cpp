@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "host_app/setup/pairing_call.h"
+#include "tests/support/eventually.h"
 #include "tests/support/thrown_sentence.h"
 
 namespace vantage {
@@ -23,15 +24,14 @@ struct PairingSocketTest : testing::Test {
     CurveKeys rig_keys = generate_curve_keys(), host_keys = generate_curve_keys();
     PairingWindow window{rig_keys, offer(), {}, MonotonicClock::now()};
 
-    /// Both ends, until it is so.
+    /// Runs both ends until the condition is true.
     template <class Condition>
     bool until(PairingCall& call, Condition condition) {
-        for (int i = 0; i < 2000; ++i, std::this_thread::sleep_for(2ms)) {
+        return eventually([&] {
             socket.serve(window, MonotonicClock::now());
             call.turn(MonotonicClock::now());
-            if (condition()) return true;
-        }
-        return false;
+            return condition();
+        });
     }
 };
 

@@ -9,6 +9,7 @@
 #include "common/base/time/time.h"
 #include "common/take/take_reader.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/common/take/small_take.h"
 
@@ -152,7 +153,7 @@ TEST_F(TakeRecorderTest, ReportedFramesAreInTheUnfinishedFile) {
     for (std::uint64_t pulse = 1000; pulse < 1010; ++pulse) {
         offer_both(recorder, pulse, pulse);
         const std::uint64_t offered = 2 * (pulse - 999);
-        while (recorder.state().frames < offered) std::this_thread::sleep_for(1ms);
+        ASSERT_TRUE(eventually([&] { return recorder.state().frames >= offered; }));
         EXPECT_EQ(frames_of(0) + frames_of(1), offered) << "as if it were killed now";
     }
 }
@@ -166,7 +167,7 @@ TEST_F(TakeRecorderTest, ReportsTheLongestUnwrittenTime) {
     while (MonotonicClock::now() - begun < 50ms) std::this_thread::sleep_for(1ms);
     const double held_ms = ms_since(begun);
     release.set_value();
-    while (recorder.state().frames < 200) std::this_thread::sleep_for(1ms);
+    ASSERT_TRUE(eventually([&] { return recorder.state().frames >= 200; }));
     const TakeReader take(take_);
     ASSERT_EQ(take.frames(0).size(), 100u);
     ASSERT_EQ(take.frames(1).size(), 100u);
@@ -195,9 +196,7 @@ TEST_F(TakeRecorderTest, LimitsTheWaitForRigsAndAddsThemLater) {
     TakeRecorder recorder(wanted);
     recorder.begin(take_);
     recorder.offer(arrived(0, 1000));
-    for (int i = 0; i < 5000 && recorder.state().phase == TakePhase::opening; ++i)
-        std::this_thread::sleep_for(2ms);
-    EXPECT_EQ(recorder.state().phase, TakePhase::recording);
+    ASSERT_TRUE(eventually([&] { return recorder.state().phase == TakePhase::recording; }));
     recorder.offer(arrived(1, 1003));
     recorder.finish();
     EXPECT_EQ(frames_of(0), 1u);

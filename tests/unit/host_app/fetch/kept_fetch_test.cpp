@@ -15,6 +15,7 @@
 #include "rig_firmware/keep/kept_reader.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/common/take/small_take.h"
 
@@ -171,10 +172,9 @@ TEST_F(KeptFetchTest, ContinuesAfterARestartOfTheRig) {
     KeptFetch fetch = all();
     fetch.bytes_s = 60e3;  // some frames per second
     std::thread again([&] {
-        const MonotonicTime end = MonotonicClock::now() + patience;
-        while (MonotonicClock::now() < end &&
-               (north->status().hosts.empty() || north->status().hosts[0].fetched < 10))
-            std::this_thread::sleep_for(2ms);
+        EXPECT_TRUE(eventually([&] {
+            return !north->status().hosts.empty() && north->status().hosts[0].fetched >= 10;
+        }));
         north.reset();
         north = start("north", stream);
     });
@@ -261,9 +261,7 @@ TEST_F(KeptFetchTest, TheReaderSkipsDamageAndFollowsAGrowingFile) {
     EXPECT_EQ(reader.first_of(first_ + 40, first_ + 99), nullptr);
     for (std::uint64_t pulse = first_ + 40; pulse < first_ + 80; ++pulse)
         writer.add(0, storer.store(sent_frame("north", pulse)));
-    const MonotonicTime end = MonotonicClock::now() + patience;
-    while (!reader.first_of(first_ + 40, first_ + 99) && MonotonicClock::now() < end)
-        std::this_thread::sleep_for(20ms);
+    ASSERT_TRUE(eventually([&] { return reader.first_of(first_ + 40, first_ + 99) != nullptr; }));
     EXPECT_EQ(reader.first_of(first_ + 40, first_ + 99)->pulse, first_ + 40);
 }
 

@@ -11,6 +11,7 @@
 #include "host_app/desk/feed/desk_feed.h"
 #include "host_app/session/report/live_report.h"
 #include "host_app/session/report/show_log.h"
+#include "tests/support/eventually.h"
 #include "tests/unit/host_app/frames/scripted_feed.h"
 
 namespace vantage {
@@ -33,14 +34,15 @@ class SignalLoss : public testing::Test {
         ASSERT_TRUE(show_->wait_for_rigs(30s, stop_));
         show_->start();
     }
-    bool comes_true(const std::function<bool()>& condition) {
-        for (int i = 0; i < 15000; ++i) {
-            if (condition()) return true;
-            // The rigs send frames until the test stops them.
-            if (goes_on_) feed_.push(feed_.set(++pulse_, {"north", "south"}));
-            std::this_thread::sleep_for(goes_on_ ? 40ms : 2ms);
-        }
-        return false;
+    /// Waits for a condition; meanwhile the rigs send frames until the test stops them.
+    bool eventually(const std::function<bool()>& condition) {
+        return vantage::eventually(
+            [&] {
+                if (condition()) return true;
+                if (goes_on_) feed_.push(feed_.set(++pulse_, {"north", "south"}));
+                return false;
+            },
+            longest_wait, 40ms);
     }
     DeskState desk() {
         const ProgrammeState programme = show_->state();
@@ -89,16 +91,16 @@ TEST_F(NoFrameYet, IsExplainedByTheRigsInTheLog) {
 
 TEST_F(SignalLoss, ReplacesTheLatencyInTheLog) {
     ProgressLog log(plan_);
-    ASSERT_TRUE(comes_true([&] { return show_->state().latency_ms > 0; }));
+    ASSERT_TRUE(eventually([&] { return show_->state().latency_ms > 0; }));
     std::string line;
-    ASSERT_TRUE(comes_true([&] {
+    ASSERT_TRUE(eventually([&] {
         line = log.line(*show_);
         return line.find("ms from exposure to picture") != std::string::npos;
     })) << line;
     EXPECT_THAT(line, HasSubstr("2 of 2 rigs, "));
     goes_on_ = false;
     for (const char* word : {"2 of 2 rigs, STALE, levels", "2 of 2 rigs, NO SIGNAL, levels"}) {
-        ASSERT_TRUE(comes_true([&] {
+        ASSERT_TRUE(eventually([&] {
             line = log.line(*show_);
             return line.find(word) != std::string::npos;
         })) << line;
@@ -108,12 +110,12 @@ TEST_F(SignalLoss, ReplacesTheLatencyInTheLog) {
 
 TEST_F(SignalLoss, RemovesLatencyAndCoverageFromTheDesk) {
     DeskState state;
-    ASSERT_TRUE(comes_true([&] {
+    ASSERT_TRUE(eventually([&] {
         state = desk();
         return state.signal == SignalState::live && state.latency_ms > 0 && state.coverage;
     }));
     goes_on_ = false;
-    ASSERT_TRUE(comes_true([&] {
+    ASSERT_TRUE(eventually([&] {
         state = desk();
         return state.signal == SignalState::no_signal;
     }));
@@ -123,7 +125,7 @@ TEST_F(SignalLoss, RemovesLatencyAndCoverageFromTheDesk) {
 }
 
 TEST_F(SignalLoss, AfterTheEndIsNotInTheReport) {
-    ASSERT_TRUE(comes_true([&] { return show_->state().picture != nullptr; }));
+    ASSERT_TRUE(eventually([&] { return show_->state().picture != nullptr; }));
     feed_.push(feed_.set(++pulse_, {"north", "south"}));
     show_->finish();
     std::this_thread::sleep_for(40ms + stale_after);
