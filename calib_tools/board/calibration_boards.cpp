@@ -15,9 +15,12 @@ std::string markers_alike(const std::string& dictionary) {
 
 }  // namespace
 
-CalibrationBoards::CalibrationBoards(const BoardPattern& pattern) { add(pattern.size_name(), {pattern}); }
+CalibrationBoards::CalibrationBoards(const BoardPattern& pattern) {
+    add(pattern.size_name(), {pattern});
+}
 
-void CalibrationBoards::add(const std::string& name, const std::vector<BoardPattern>& fixed_to_each_other) {
+void CalibrationBoards::add(const std::string& name,
+                            const std::vector<BoardPattern>& fixed_to_each_other) {
     BoardBody body{name, {}};
     for (const BoardPattern& board : fixed_to_each_other) {
         body.boards.push_back(static_cast<int>(boards.size()));

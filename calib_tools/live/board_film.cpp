@@ -59,7 +59,8 @@ void require_empty(const FilmedCamera& camera) {
 }
 
 /// The instants that an earlier film left in the folders.
-void take_up(const std::vector<FilmedCamera>& cameras, const CalibrationBoards& boards, BoardFilm& film) {
+void take_up(const std::vector<FilmedCamera>& cameras, const CalibrationBoards& boards,
+             BoardFilm& film) {
     std::set<std::uint64_t> pulses;
     for (const FilmedCamera& camera : cameras) pulses.merge(pulses_in_folder(camera));
     film.pulses.assign(pulses.begin(), pulses.end());
@@ -221,8 +222,8 @@ std::string film_on(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
 }  // namespace
 
 BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
-                     const CalibrationBoards& boards, const FilmOptions& options, const FilmRule& rule,
-                     const FilmAdvice& advice) {
+                     const CalibrationBoards& boards, const FilmOptions& options,
+                     const FilmRule& rule, const FilmAdvice& advice) {
     BoardFilm film;
     film.pictures.resize(cameras.size());
     for (const FilmedCamera& camera : cameras) {

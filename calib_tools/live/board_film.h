@@ -48,8 +48,8 @@ struct FilmOptions {
 /// hold pictures already (unless it goes on from them), where rigs fall silent, and if the pictures
 /// show another board; it says then what is kept.
 BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
-                     const CalibrationBoards& boards, const FilmOptions& options, const FilmRule& rule,
-                     const FilmAdvice& advice);
+                     const CalibrationBoards& boards, const FilmOptions& options,
+                     const FilmRule& rule, const FilmAdvice& advice);
 
 /// Does what follows a film; if that throws Error, so does this, saying also what is kept. `kept`
 /// is empty where nothing was filmed.

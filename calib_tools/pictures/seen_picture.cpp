@@ -47,8 +47,8 @@ void judge(const GreyImage& grey, SeenPicture& picture) {
 
 void look_at(SeenPicture& picture, const CalibrationBoards& boards, CodeRange range) {
     try {
-        picture = look_at_picture(to_grey(read_colour_image(picture.path, range)), picture.path,
-                                  boards);
+        picture =
+            look_at_picture(to_grey(read_colour_image(picture.path, range)), picture.path, boards);
     } catch (const Error& error) {
         picture.sighting = {};
         picture.sighting.reason = error.what();

@@ -224,7 +224,8 @@ std::string doubt_rectification(const StereoCalibration& rig) {
     constexpr double most_enlarged = 1.4, most_apart_deg = 10;
     if (enlarged < most_enlarged && apart_deg < most_apart_deg) return {};
     return fmt::format(
-        "the rectified pictures are enlarged {:.1f} times and the cameras look {:.0f} degrees apart: "
+        "the rectified pictures are enlarged {:.1f} times and the cameras look {:.0f} degrees "
+        "apart: "
         "much of what they see is cut off; mount them parallel, or keep more with --alpha 1",
         enlarged, apart_deg);
 }

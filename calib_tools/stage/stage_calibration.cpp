@@ -266,7 +266,8 @@ std::string StageCalibration::placement_name(int board) const {
                                             bodies[static_cast<std::size_t>(placement.body)].name);
 }
 
-StageCalibration calibrate_stage(const std::vector<StageRig>& given, const CalibrationBoards& boards,
+StageCalibration calibrate_stage(const std::vector<StageRig>& given,
+                                 const CalibrationBoards& boards,
                                  const std::optional<Floor>& floor) {
     if (given.size() < 2) fail("a stage needs at least two rigs; one was given");
     boards.validate();

@@ -152,7 +152,8 @@ void require_all_standing(const std::vector<StageRig>& rigs, const std::vector<b
 }
 
 /// Bodies without boards leave; the first board that was seen most gives a body its frame.
-void tidy_bodies(const std::vector<StageRig>& rigs, const CalibrationBoards& boards, StageStart& start) {
+void tidy_bodies(const std::vector<StageRig>& rigs, const CalibrationBoards& boards,
+                 StageStart& start) {
     std::vector<int> corners(boards.boards.size(), 0);
     for (const StageRig& rig : rigs)
         for (const auto* series : {&rig.left, &rig.right})

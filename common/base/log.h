@@ -17,8 +17,8 @@ enum class LogLevel { debug, info, warning, error };
 /// may contain, are written as escapes. Results go to stdout, everything else through here.
 void log_line(LogLevel level, std::string_view text);
 
-/// Writes a warning only the first time that it is given with this key, and adds that it will not be
-/// repeated. For a property that all images of a series or of a camera share.
+/// Writes a warning only the first time that it is given with this key, and adds that it will not
+/// be repeated. For a property that all images of a series or of a camera share.
 void log_warning_once(std::string_view key, std::string_view text);
 
 /// Writes the sentence that a program ends with: an error line without the time.

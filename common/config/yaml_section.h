@@ -49,8 +49,8 @@ std::string read_yaml_text(const std::filesystem::path& path);
 /// Throws Error if the file has another kind or an unknown version.
 void require_kind(const YamlSection& top, const YamlKind& kind);
 
-/// Throws Error with the file's name. If another program wrote the file, the error names that program
-/// and the command that imports it; otherwise it gives `reason`.
+/// Throws Error with the file's name. If another program wrote the file, the error names that
+/// program and the command that imports it; otherwise it gives `reason`.
 [[noreturn]] void refuse_yaml(const std::filesystem::path& path, const std::string& text,
                               const std::string& reason);
 

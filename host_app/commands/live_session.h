@@ -14,8 +14,8 @@ struct LiveOptions {
     std::string take;   ///< take that is recorded from the start; empty: none
     std::string takes;  ///< folder of the takes that the operator starts; empty: the working folder
     double wait_s = 10, past_mb = 1024, pre_roll_s = 0;
-    /// Called while the first pictures are waited for; what it throws ends the session. Empty: nothing
-    /// is called.
+    /// Called while the first pictures are waited for; what it throws ends the session. Empty:
+    /// nothing is called.
     std::function<void()> while_waiting{};
 };
 

@@ -12,9 +12,9 @@
 
 #include "common/base/cli/command.h"
 #include "common/base/cli/line_input.h"
+#include "common/base/cli/print_result.h"
 #include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
-#include "common/base/cli/print_result.h"
 #include "common/base/files/folder.h"
 #include "common/config/endpoint.h"
 #include "common/pairing/pairing_place.h"

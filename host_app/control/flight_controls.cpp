@@ -20,8 +20,7 @@ bool OperatorInputBox::put(const FlightInput& input, MonotonicTime now) {
     if (!input.is_any()) return true;
     const std::lock_guard lock(mutex_);
     if (!waiting_.since) waiting_.since = now;
-    const bool is_full =
-        waiting_.input.commands.size() + input.commands.size() > max_commands;
+    const bool is_full = waiting_.input.commands.size() + input.commands.size() > max_commands;
     if (is_full)
         waiting_.input.add_axes(input);
     else
@@ -179,7 +178,9 @@ void FlightControls::obey(const command::FlyToPreview&) {
     may_track_ = false;
 }
 
-void FlightControls::obey(const command::SetFlyDuration& set) { fly_to_preview_s_ = set.duration_s; }
+void FlightControls::obey(const command::SetFlyDuration& set) {
+    fly_to_preview_s_ = set.duration_s;
+}
 
 void FlightControls::obey(const command::ToggleTracking&) { may_track_ = !may_track_; }
 
@@ -212,7 +213,8 @@ void FlightControls::fly(const FlightInput& input, double dt_s, std::optional<do
         glide_.begin();
     }
     if (settings_.take_begin && programme.move_take_s()) {
-        // The move sets the time, so holding the time pauses the move, and going elsewhere leaves it.
+        // The move sets the time, so holding the time pauses the move, and going elsewhere leaves
+        // it.
         const std::size_t holds = std::erase_if(step.time.commands, [](const TimeCommand& each) {
             const auto* transport = std::get_if<TransportCommand>(&each);
             return transport && std::holds_alternative<command::ToggleHold>(*transport);
@@ -364,10 +366,9 @@ std::string FlightControls::wheel_line() const {
     if (names.empty()) return fault;
     return fmt::format(
         "{} {}{}{}", names,
-        wheels_.is_open()
-            ? "moves nothing while its map is open"
-            : fmt::format("drives the {}",
-                          name_of(cameras_.in_hand().flight_controller.wheel_mode())),
+        wheels_.is_open() ? "moves nothing while its map is open"
+                          : fmt::format("drives the {}",
+                                        name_of(cameras_.in_hand().flight_controller.wheel_mode())),
         mapper_.is_storing() ? "; the next shot button stores" : "",
         wheels_.unsaved().empty() ? "" : "; its map has unsaved changes");
 }

@@ -58,8 +58,8 @@ class FlightControls final : public CameraSource {
     struct Settings {
         FlightPlan plan;
         double pulse_rate_hz = 30;
-        bool has_past = false;     ///< there is a replay buffer or a take
-        bool free_flight = false;  ///< the camera may leave the corridor
+        bool has_past = false;                  ///< there is a replay buffer or a take
+        bool free_flight = false;               ///< the camera may leave the corridor
         std::optional<double> take_begin = {};  ///< first pulse of the take that is shown
     };
     using RigView = FlightController::RigView;
@@ -112,12 +112,12 @@ class FlightControls final : public CameraSource {
         std::optional<double> move_progress;  ///< 0..1 while the operator's camera is on the move
         std::string wheel_mode;               ///< orbit, move or past
         bool is_tracked = false;              ///< a tracked camera flies
-        std::string wheel;  ///< names of the wheels, what they drive, and faults
+        std::string wheel;                    ///< names of the wheels, what they drive, and faults
         CorridorStats corridor;
         bool is_recording = false;  ///< a flight
         bool holds_horizon = true;
-        bool is_following = false;  ///< the operator's camera follows a performer
-        std::size_t keyframes = 0;  ///< of the move
+        bool is_following = false;         ///< the operator's camera follows a performer
+        std::size_t keyframes = 0;         ///< of the move
         std::vector<Following> following;  ///< on programme and preview
         double fly_to_preview_s = 0;       ///< duration of a flight to the preview
         struct Preview {

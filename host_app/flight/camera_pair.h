@@ -39,7 +39,8 @@ class CameraPair {
     // Precondition of both: there is a preview.
     /// Swaps both cameras at once, each with its flight and its move.
     void cut();
-    /// The programme's camera leaves its move or flight and flies to the present view of the preview.
+    /// The programme's camera leaves its move or flight and flies to the present view of the
+    /// preview.
     void fly_to_preview(double duration_s);
     /// Progress 0..1 of that flight.
     std::optional<double> fly_progress() const;

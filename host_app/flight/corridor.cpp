@@ -232,8 +232,8 @@ Corridor::RayCoverage Corridor::of_background(const Eigen::Vector3d& point_m) co
         is_any_ahead |= in_rig.z() > 0;
         covered.share = std::max(covered.share, in_picture(rigs_[i], in_rig));
     }
-    covered.losses[static_cast<std::size_t>(is_any_ahead ? CoverageLoss::outside
-                                                       : CoverageLoss::behind)] = 1 - covered.share;
+    covered.losses[static_cast<std::size_t>(
+        is_any_ahead ? CoverageLoss::outside : CoverageLoss::behind)] = 1 - covered.share;
     return covered;
 }
 

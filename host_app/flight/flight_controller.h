@@ -21,8 +21,9 @@ enum class WheelMode {
 const char* name_of(WheelMode mode);
 
 /// Flies the virtual camera by operator input, to stored shots and along a planned move. The view
-/// never jumps, except to a shot without a flight time: the camera follows input smoothly and glides
-/// back onto the move. Without input it holds its pose, or the move plays on. Not thread-safe.
+/// never jumps, except to a shot without a flight time: the camera follows input smoothly and
+/// glides back onto the move. Without input it holds its pose, or the move plays on. Not
+/// thread-safe.
 class FlightController {
   public:
     /// View of rig 1, 2, ..., for shots that were not stored; empty if there is no such rig.
@@ -57,7 +58,8 @@ class FlightController {
     void share(const Change& change);
     void set_wheel_mode(WheelMode mode) { mode_ = mode; }
 
-    /// Shifts the pivot to a point and the camera with it, unless the camera is on a move or flight.
+    /// Shifts the pivot to a point and the camera with it, unless the camera is on a move or
+    /// flight.
     void carry_pivot_to(const Eigen::Vector3d& pivot_m);
 
     /// Limits flight by hand to a corridor; null: no limit. Planned moves are not limited.
@@ -73,8 +75,7 @@ class FlightController {
 
     /// Executes the axes of the input, then its commands of the group FlightCommand in order.
     /// `take_s` is the playback position in a take, which new keyframes store.
-    void take(const FlightInput& input, const RigView& rig_view,
-              std::optional<double> take_s = {});
+    void take(const FlightInput& input, const RigView& rig_view, std::optional<double> take_s = {});
     /// Precondition: dt_s >= 0.
     void advance(double dt_s);
 
@@ -83,8 +84,8 @@ class FlightController {
     std::optional<double> move_progress() const;
     /// 0..1 while the camera flies to a shot or to another controller's view.
     std::optional<double> flight_progress() const;
-    /// Playback position in the take that the move sets, while the camera is on the move; empty: the
-    /// move has no times of a take.
+    /// Playback position in the take that the move sets, while the camera is on the move; empty:
+    /// the move has no times of a take.
     std::optional<double> move_take_s() const;
     WheelMode wheel_mode() const { return mode_; }
     const FlightLimits& limits() const { return limits_; }

@@ -5,12 +5,16 @@
 namespace vantage {
 namespace {
 
-constexpr double FlightInput::*camera_axes[] = {
-    &FlightInput::orbit_azimuth_rad, &FlightInput::orbit_elevation_rad,
-    &FlightInput::pan_right_widths,  &FlightInput::pan_up_widths,
-    &FlightInput::dolly,             &FlightInput::zoom,
-    &FlightInput::crane_up_widths,   &FlightInput::look_right_rad,
-    &FlightInput::look_up_rad,       &FlightInput::roll_rad};
+constexpr double FlightInput::*camera_axes[] = {&FlightInput::orbit_azimuth_rad,
+                                                &FlightInput::orbit_elevation_rad,
+                                                &FlightInput::pan_right_widths,
+                                                &FlightInput::pan_up_widths,
+                                                &FlightInput::dolly,
+                                                &FlightInput::zoom,
+                                                &FlightInput::crane_up_widths,
+                                                &FlightInput::look_right_rad,
+                                                &FlightInput::look_up_rad,
+                                                &FlightInput::roll_rad};
 constexpr double FlightInput::*other_axes[] = {&FlightInput::retime_s, &FlightInput::wheel_steps,
                                                &FlightInput::shuttle_s};
 
@@ -25,8 +29,8 @@ bool is_any_moved(const FlightInput& input, const Axes& axes) {
 bool FlightInput::turns_camera() const { return is_any_moved(*this, camera_axes); }
 
 bool FlightInput::steers() const {
-    return turns_camera() || find<command::LookAt>() ||
-           find<command::ResetView>() || find<command::RecallShot>();
+    return turns_camera() || find<command::LookAt>() || find<command::ResetView>() ||
+           find<command::RecallShot>();
 }
 
 bool FlightInput::moves_pivot() const {

@@ -68,11 +68,10 @@ struct CueTime {
 
 }  // namespace command
 
-using FlightCommand =
-    std::variant<command::ResetView, command::RecallShot, command::StoreShot, command::LookAt,
-                 command::ToggleHorizon, command::NextWheelMode, command::ToggleMove,
-                 command::AddKeyframe, command::SetKeyframe, command::RemoveKeyframe,
-                 command::JumpKeyframes>;
+using FlightCommand = std::variant<command::ResetView, command::RecallShot, command::StoreShot,
+                                   command::LookAt, command::ToggleHorizon, command::NextWheelMode,
+                                   command::ToggleMove, command::AddKeyframe, command::SetKeyframe,
+                                   command::RemoveKeyframe, command::JumpKeyframes>;
 using CameraCommand =
     std::variant<command::TogglePreview, command::Cut, command::FlyToPreview,
                  command::SetFlyDuration, command::ToggleTracking, command::ToggleFollow,

@@ -24,7 +24,8 @@ class Follower {
         Way wanted = (1 - std::exp(-dt_s_ / limits_.follow_s)) / dt_s_ * way;
         if (limits_.ramp_s <= 0) return dt_s_ * limited(wanted, max_speed);
         const double ramp = max_speed / limits_.ramp_s;
-        // Half of the ramp must be enough to brake on the remaining way, so the goal is not overrun.
+        // Half of the ramp must be enough to brake on the remaining way, so the goal is not
+        // overrun.
         wanted = limited(wanted, std::min(max_speed, std::sqrt(ramp * length(way))));
         return dt_s_ * Way(speed + limited(Way(wanted - speed), ramp * dt_s_));
     }

@@ -18,8 +18,8 @@ PanTiltRoll pan_tilt_roll_of(const Pose& world_from_camera);
 /// The rotation world from camera.
 Eigen::Matrix3d turned(const PanTiltRoll& turn);
 
-/// The virtual camera on an orbit: it looks at a pivot from a direction and a distance. The world is
-/// right-handed, in metres, with y up and the floor at y = 0.
+/// The virtual camera on an orbit: it looks at a pivot from a direction and a distance. The world
+/// is right-handed, in metres, with y up and the floor at y = 0.
 struct OrbitView {
     Eigen::Vector3d pivot_m{0, 1, 0};
     double azimuth_rad = 0;    ///< around y; 0: the camera is on the +z side; positive towards +x
@@ -63,8 +63,9 @@ struct FlightLimits {
 /// above the floor.
 OrbitView constrained(OrbitView view, const FlightLimits& limits);
 
-/// The view from which an operator takes over a camera: the same picture, with the pivot on the line
-/// of sight as near to the focus as the limits allow. Constrained if the limits allow no such view.
+/// The view from which an operator takes over a camera: the same picture, with the pivot on the
+/// line of sight as near to the focus as the limits allow. Constrained if the limits allow no such
+/// view.
 OrbitView taken_over(const CameraState& camera, const FlightLimits& limits,
                      double near_azimuth_rad = 0);
 

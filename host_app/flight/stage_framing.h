@@ -26,8 +26,8 @@ struct StageFraming {
 
 /// Derives start view, limits and extent of a stage from its rigs. The camera starts at the middle
 /// rig, with the pivot where the rigs' optical axes meet; if they do not meet, on its axis at its
-/// median depth. Limits and extent are multiples of the largest median depth. The floor is y = 0, or
-/// lies below the lowest rig if a rig stands lower. Empty if no rig has depth.
+/// median depth. Limits and extent are multiples of the largest median depth. The floor is y = 0,
+/// or lies below the lowest rig if a rig stands lower. Empty if no rig has depth.
 std::optional<StageFraming> frame_stage(std::span<const FramedRig> rigs);
 
 }  // namespace vantage

@@ -15,7 +15,8 @@ void count_frames(const FrameSet& set, RigCounts& counts) {
         if (slot.frame) ++counts[slot.rig];
 }
 
-NewestFrameSet::NewestFrameSet(StageFeed feed) : feed_(std::move(feed)), thread_([this] { run(); }) {}
+NewestFrameSet::NewestFrameSet(StageFeed feed)
+    : feed_(std::move(feed)), thread_([this] { run(); }) {}
 
 NewestFrameSet::~NewestFrameSet() { stop(); }
 

@@ -18,8 +18,8 @@ namespace vantage {
 using RigCounts = std::map<std::string, std::uint64_t>;
 void count_frames(const FrameSet& set, RigCounts& counts);
 
-/// Reads frame sets from a feed on its own thread and keeps the newest, so that slow rendering never
-/// delays reception. Frame sets that a newer one replaced before they were taken are counted.
+/// Reads frame sets from a feed on its own thread and keeps the newest, so that slow rendering
+/// never delays reception. Frame sets that a newer one replaced before they were taken are counted.
 /// Thread-safe.
 class NewestFrameSet {
   public:
@@ -28,7 +28,8 @@ class NewestFrameSet {
     NewestFrameSet(const NewestFrameSet&) = delete;
     NewestFrameSet& operator=(const NewestFrameSet&) = delete;
 
-    /// Takes the newest frame set, and waits for one until the timeout. Throws the error of the feed.
+    /// Takes the newest frame set, and waits for one until the timeout. Throws the error of the
+    /// feed.
     std::optional<FrameSet> take(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));
 
     /// Frame sets that were replaced by a newer one.

@@ -8,13 +8,14 @@
 
 namespace vantage {
 
-/// Random access to past frame sets by pulse: those of the replay buffer, or of a take. Thread-safe.
+/// Random access to past frame sets by pulse: those of the replay buffer, or of a take.
+/// Thread-safe.
 class PastFrameSets {
   public:
     virtual ~PastFrameSets() = default;
 
-    /// Pulse of the newest frame set not later than `pulse`, otherwise of the oldest; empty if there
-    /// is none.
+    /// Pulse of the newest frame set not later than `pulse`, otherwise of the oldest; empty if
+    /// there is none.
     virtual std::optional<std::uint64_t> pulse_at(double pulse) const = 0;
     /// Decodes and returns that frame set.
     virtual std::optional<FrameSet> at(double pulse) const = 0;

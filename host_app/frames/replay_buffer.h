@@ -19,9 +19,9 @@ class ReplayBuffer final : public PastFrameSets {
   public:
     explicit ReplayBuffer(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-    /// Adds a frame set and drops the oldest to stay within the memory. Pulses increase; a frame set
-    /// with an earlier pulse clears the buffer, since the stage was restarted. A frame set that is
-    /// larger than the buffer is not kept.
+    /// Adds a frame set and drops the oldest to stay within the memory. Pulses increase; a frame
+    /// set with an earlier pulse clears the buffer, since the stage was restarted. A frame set that
+    /// is larger than the buffer is not kept.
     void add(const FrameSet& set);
 
     std::optional<std::uint64_t> pulse_at(double pulse) const override;

@@ -11,9 +11,9 @@ ForegroundLayers::ForegroundLayers(const ShaderLibrary& library)
       show_plainly_(library, "foreground_show.frag", same_surface_share, {{"PLAIN", "1"}}) {}
 
 const DepthPicture& ForegroundLayers::show(const Texture& picture, const Texture& depth_m,
-                                          const Texture* shares,
-                                          std::span<const DrawnLayer> performers,
-                                          const VirtualView& target, bool is_plain) {
+                                           const Texture* shares,
+                                           std::span<const DrawnLayer> performers,
+                                           const VirtualView& target, bool is_plain) {
     constexpr std::size_t finely = 0;
     layers_.draw(performers, target, finely);
     open_.resize({target.width_px, target.height_px});

@@ -31,9 +31,9 @@ void write_programme(const LiveReport& report, MetricText& text) {
     text.sample(number(programme.missed));
     text.counter("replaced_pictures",
                  "Pictures replaced by a newer one before a tick showed them.");
-    text.sample(number(programme.replaced));                                  // old name
+    text.sample(number(programme.replaced));                                    // old name
     text.counter("superseded_pictures", "Deprecated: see replaced_pictures.");  // old name
-    text.sample(number(programme.replaced));                                  // old name
+    text.sample(number(programme.replaced));                                    // old name
     text.gauge("live", "1 while the programme shows what happens now.");
     text.sample(report.signal == SignalState::live ? 1 : 0);
     text.gauge("quality_share_ratio", "Share of time at each quality level; 0 is the best.");

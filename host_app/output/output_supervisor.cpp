@@ -63,7 +63,9 @@ void OutputSupervisor::start(std::size_t number) { outputs().at(number)->start()
 
 void OutputSupervisor::stop(std::size_t number) { outputs().at(number)->stop(); }
 
-bool OutputSupervisor::is_wanted(std::size_t number) const { return outputs().at(number)->is_wanted(); }
+bool OutputSupervisor::is_wanted(std::size_t number) const {
+    return outputs().at(number)->is_wanted();
+}
 
 void OutputSupervisor::finish() {
     for (const std::shared_ptr<Output>& output : outputs()) output->finish();

@@ -32,9 +32,10 @@ void Preview::take_finished(MonotonicTime now) {
     if (!is_under_way_ || !maker_->is_idle()) return;
     is_under_way_ = false;
     const MonotonicTime::duration took = now - began_;
-    next_ = now + std::min(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                               (1 / busy_share - 1) * took),
-                           max_pause);
+    next_ =
+        now +
+        std::min(std::chrono::duration_cast<std::chrono::nanoseconds>((1 / busy_share - 1) * took),
+                 max_pause);
     std::shared_ptr<const MadePicture> made = maker_->take_finished();
     if (!made) return;
     shown_ = std::move(made);

@@ -10,8 +10,9 @@
 
 namespace vantage {
 
-/// Keeps PictureSound in step with the programme's picture: it measures the delay of the picture and
-/// takes the sound of each tick. Without sound it does nothing. Used on the programme's thread only.
+/// Keeps PictureSound in step with the programme's picture: it measures the delay of the picture
+/// and takes the sound of each tick. Without sound it does nothing. Used on the programme's thread
+/// only.
 class ProgrammeSound {
   public:
     /// `sound` may be null.
@@ -30,8 +31,8 @@ class ProgrammeSound {
         }
     }
 
-    /// The sound of the tick that is `later` ticks after the one that was due at `due`, for which the
-    /// transport was advanced. Null without sound.
+    /// The sound of the tick that is `later` ticks after the one that was due at `due`, for which
+    /// the transport was advanced. Null without sound.
     std::shared_ptr<const SoundBlock> next(MonotonicTime due, std::uint64_t later,
                                            const Transport& transport) {
         if (!sound_) return nullptr;
@@ -43,9 +44,8 @@ class ProgrammeSound {
         } else if (const std::optional<double> pulse = transport.pulse();
                    pulse && transport.is_at_normal_speed()) {
             const double whole = std::floor(*pulse);
-            tick.shown_time =
-                PulseGrid(pulse_rate_hz_).time_of(static_cast<std::uint64_t>(whole)) +
-                from_s((*pulse - whole) / pulse_rate_hz_) + after;
+            tick.shown_time = PulseGrid(pulse_rate_hz_).time_of(static_cast<std::uint64_t>(whole)) +
+                              from_s((*pulse - whole) / pulse_rate_hz_) + after;
         }
         return sound_->next(tick);
     }

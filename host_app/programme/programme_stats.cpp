@@ -41,10 +41,8 @@ std::optional<double> ProgrammeRecorder::record(const HandOver& frame) {
     else if (!frame.was_due)
         last_new_.reset();
     if (const MadePicture* carried = frame.reprojected)
-        reprojected_way_.add(
-            Reprojection::way(carried->rendered->job.camera, carried->job.camera));
-    if (!frame.fresh && frame.was_due)
-        ++(frame.reprojected ? stats_.reprojected : stats_.repeated);
+        reprojected_way_.add(Reprojection::way(carried->rendered->job.camera, carried->job.camera));
+    if (!frame.fresh && frame.was_due) ++(frame.reprojected ? stats_.reprojected : stats_.repeated);
     stats_.faults = frame.faults;
     stats_.ticks += frame.passed_ticks;
     stats_.missed += frame.passed_ticks - 1;

@@ -21,15 +21,16 @@ struct ProgrammeStats {
                                     ///< one reprojected to the present camera
     Percentiles reprojected_way;    ///< of all reprojections, as a share of the picture's width
     std::uint64_t repeated = 0;     ///< such ticks that got the last frame as it was
-    std::uint64_t missed = 0;       ///< repeated ticks that the programme reached too late; sinks got
-                                    ///< their frames late
-    std::uint64_t replaced = 0;   ///< frames that a newer one replaced before a tick showed them
-    Percentiles late_ms;            ///< from a tick to the hand-over of its frame
-    double duration_s = 0;          ///< since the first frame
-    Percentiles interval_ms;        ///< between two newly rendered frames
+    std::uint64_t missed = 0;    ///< repeated ticks that the programme reached too late; sinks got
+                                 ///< their frames late
+    std::uint64_t replaced = 0;  ///< frames that a newer one replaced before a tick showed them
+    Percentiles late_ms;         ///< from a tick to the hand-over of its frame
+    double duration_s = 0;       ///< since the first frame
+    Percentiles interval_ms;     ///< between two newly rendered frames
     Percentiles latency_ms;  ///< from exposure to the hand-over of the first frame rendered from it
-    Percentiles input_ms;    ///< input latency: from input to the hand-over of the first frame with it
-    Percentiles seek_ms;     ///< from a jump in time to the hand-over of the frame of its target
+    Percentiles
+        input_ms;         ///< input latency: from input to the hand-over of the first frame with it
+    Percentiles seek_ms;  ///< from a jump in time to the hand-over of the frame of its target
     SeekSteps<Percentiles> seek_steps_ms;
     Percentiles rest_ms;  ///< from the last change of camera and time to the frame at best quality
     Percentiles render_ms, readback_ms;

@@ -13,8 +13,8 @@ namespace vantage {
 constexpr int most_clips = 99;
 constexpr std::size_t most_entries = 200;
 
-/// A named part of the past. It is given by pulse indices, which stay valid in the replay buffer, in
-/// a take, and in later sessions.
+/// A named part of the past. It is given by pulse indices, which stay valid in the replay buffer,
+/// in a take, and in later sessions.
 struct Clip {
     std::string name = {};          ///< may be empty
     std::uint64_t in = 0, out = 0;  ///< `out` is the first pulse that is left out

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "common/config/toml_reader.h"
 #include "common/config/toml_edit.h"
+#include "common/config/toml_reader.h"
 
 namespace vantage {
 namespace {
@@ -27,14 +27,16 @@ void read_clip(TomlTable& table, ClipBook& book) {
     table.require("out_pulse");
     table.read("out_pulse", clip.out);
     if (table.has("in_pulse") && table.has("out_pulse") && clip.out <= clip.in)
-        table.refuse("out_pulse", "is not after in_pulse; out_pulse is the first pulse that is left out");
+        table.refuse("out_pulse",
+                     "is not after in_pulse; out_pulse is the first pulse that is left out");
     table.read("speed", clip.speed, {min_speed, max_speed});
     table.read("guard_s", clip.guard_s, {0, max_guard_s});
     table.read("shot", clip.shot, {0, max_shot});
     if (number == 0) return;
     if (!book.clips.emplace(number, std::move(clip)).second)
-        table.refuse("number", fmt::format("is {} for the second time; give every clip its own number",
-                                            number));
+        table.refuse(
+            "number",
+            fmt::format("is {} for the second time; give every clip its own number", number));
 }
 
 void read_entry(TomlTable& table, ClipBook& book) {
@@ -69,8 +71,9 @@ ClipBook load_clips(const std::filesystem::path& path, double pulse_rate_hz) {
         top.read_tables("clip", [&](TomlTable& table) { read_clip(table, book); });
         top.read_tables("entry", [&](TomlTable& table) { read_entry(table, book); });
         if (book.list.size() > most_entries)
-            top.refuse("entry", fmt::format("occurs {} times, and a play list has at most {} entries",
-                                            book.list.size(), most_entries));
+            top.refuse("entry",
+                       fmt::format("occurs {} times, and a play list has at most {} entries",
+                                   book.list.size(), most_entries));
     });
     return book;
 }

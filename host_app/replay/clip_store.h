@@ -16,8 +16,9 @@ ClipBook load_clips(const std::filesystem::path& path, double pulse_rate_hz);
 /// The text of a clip file, which load_clips() reads back.
 std::string to_toml(const ClipBook& book);
 
-/// Keeps the clips and the play list of a show in a clip file beside the stage file or the take; see
-/// KeptFile for when it is written and which file it replaces. Used on the session's thread only.
+/// Keeps the clips and the play list of a show in a clip file beside the stage file or the take;
+/// see KeptFile for when it is written and which file it replaces. Used on the session's thread
+/// only.
 class ClipStore {
   public:
     /// Reads the file if it exists. Throws Error as load_clips() does.

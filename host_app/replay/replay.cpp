@@ -226,8 +226,8 @@ void Replay::obey_list(const ReplayCall& call, const Span& span) {
             if (!book_->clips.contains(hand_))
                 return notify("no clip is selected; select one to add it to the play list");
             if (!list_.insert(hand_))
-                return notify(
-                    fmt::format("the play list is full with {} entries; remove one first", most_entries));
+                return notify(fmt::format("the play list is full with {} entries; remove one first",
+                                          most_entries));
             break;
         case ReplayAction::loop_list:
             edit([](ClipBook& book) { book.list_loops = !book.list_loops; });
@@ -252,8 +252,9 @@ void Replay::obey_list(const ReplayCall& call, const Span& span) {
                                               ? list_.swap(place)
                                               : list_.select(place);
                     if (!is_there)
-                        return notify(fmt::format("the play list has only {} entries, so there is no entry {}",
-                                               list_.entries().size(), call.number));
+                        return notify(fmt::format(
+                            "the play list has only {} entries, so there is no entry {}",
+                            list_.entries().size(), call.number));
                     break;
                 }
                 case ReplayAction::entry_step:
@@ -274,7 +275,8 @@ void Replay::obey_list(const ReplayCall& call, const Span& span) {
 }
 
 void Replay::to_last_cue(const Span& span) {
-    if (!last_cue_) return notify("nothing was played yet, so there is no start of playback to go to");
+    if (!last_cue_)
+        return notify("nothing was played yet, so there is no start of playback to go to");
     const Cue cue = *last_cue_;
     if (!span || cue.pulse < as_pulse(span->oldest))
         return notify("the start of the last playback has left the replay buffer");
@@ -313,11 +315,13 @@ void Replay::make_clip(std::uint64_t shown_pulse) {
     if (!time.in) return notify("a clip starts at the in mark; set the in mark first");
     const std::uint64_t out = time.out.value_or(
         time.pulse && time.speed == 0 ? static_cast<std::uint64_t>(*time.pulse) : shown_pulse);
-    if (out <= *time.in) return notify("a clip ends at the out mark; set the out mark after the in mark");
+    if (out <= *time.in)
+        return notify("a clip ends at the out mark; set the out mark after the in mark");
     int number = 1;
     while (book_->clips.contains(number)) ++number;
     if (number > most_clips)
-        return notify(fmt::format("there are already {} clips, the maximum; delete one first", most_clips));
+        return notify(
+            fmt::format("there are already {} clips, the maximum; delete one first", most_clips));
     Clip clip{.in = *time.in, .out = out};
     if (plays() && time.speed == book_->programme_speed) clip.speed = book_->programme_speed;
     edit([&](ClipBook& book) { book.clips.emplace(number, clip); });
@@ -329,7 +333,8 @@ void Replay::trim_clip() {
     if (clip_ != 0 && clip_ != hand_)
         return notify(
             fmt::format("the marks belong to clip {}, but clip {} is selected", clip_, hand_));
-    if (!time.in || !time.out) return notify("a clip is trimmed to the marks; set both marks first");
+    if (!time.in || !time.out)
+        return notify("a clip is trimmed to the marks; set both marks first");
     edit([&](ClipBook& book) {
         held_clip(book)->in = *time.in;
         held_clip(book)->out = *time.out;
@@ -408,7 +413,8 @@ void Replay::play_list(const Span& span) {
 void Replay::remove_entry(const Span& span) {
     const bool is_playing = list_.playing() && list_.playing() == list_.selected();
     if (is_playing && plays() &&
-        !confirms(fmt::format("give the command again to remove entry {}, which is playing", *list_.playing() + 1)))
+        !confirms(fmt::format("give the command again to remove entry {}, which is playing",
+                              *list_.playing() + 1)))
         return;
     if (list_.remove()) replace_playing(span);
     edit([](ClipBook&) {});
@@ -464,7 +470,8 @@ void Replay::follow_piece(const PastFrameSets::Span& span) {
     if (is_gone && plays()) return hold_lost();
     if (!is_loss_reported_ && clip.in < span.oldest) {
         is_loss_reported_ = true;
-        notify(fmt::format("the beginning of {} has left the replay buffer", words_of(clip_, clip)));
+        notify(
+            fmt::format("the beginning of {} has left the replay buffer", words_of(clip_, clip)));
     }
 }
 

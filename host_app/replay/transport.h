@@ -11,8 +11,8 @@ namespace vantage {
 /// A pulse index as a playback position.
 inline double as_pulse(std::uint64_t pulse) { return static_cast<double>(pulse); }
 
-/// Part of the past that plays on its own, as a clip: its marks, and the range that the operator can
-/// reach around them.
+/// Part of the past that plays on its own, as a clip: its marks, and the range that the operator
+/// can reach around them.
 struct TransportPiece {
     std::uint64_t in = 0, out = 0;  ///< `out` is the first pulse that is left out
     double least = 0, most = 0;     ///< range in pulses
@@ -27,10 +27,10 @@ struct TransportState {
     bool loops = false;
 };
 
-/// The transport of the programme, as of a replay machine: live, held on the frame set on screen, or
-/// at a position of the past that stands or plays at a speed from -2 to 2. The past is the replay
-/// buffer, or a take, which has no live. The transport affects neither recording nor reception.
-/// Positions are pulse numbers. Not thread-safe.
+/// The transport of the programme, as of a replay machine: live, held on the frame set on screen,
+/// or at a position of the past that stands or plays at a speed from -2 to 2. The past is the
+/// replay buffer, or a take, which has no live. The transport affects neither recording nor
+/// reception. Positions are pulse numbers. Not thread-safe.
 class Transport {
   public:
     Transport() = default;

@@ -29,10 +29,9 @@ struct CueIn {};  ///< go to the in mark and stop there
 
 }  // namespace command
 
-using TransportCommand =
-    std::variant<command::ToggleHold, command::ToLive, command::StepFrames, command::ChangeSpeed,
-                 command::MarkIn, command::MarkOut, command::ClearMarks, command::ToggleLoop,
-                 command::CueIn>;
+using TransportCommand = std::variant<command::ToggleHold, command::ToLive, command::StepFrames,
+                                      command::ChangeSpeed, command::MarkIn, command::MarkOut,
+                                      command::ClearMarks, command::ToggleLoop, command::CueIn>;
 
 /// A command for clips, play list and playback, which Replay executes.
 enum class ReplayAction {

@@ -16,7 +16,8 @@
 namespace vantage {
 namespace {
 
-constexpr std::array background_regions{TruthRegion::surfaces, TruthRegion::rims, TruthRegion::thin};
+constexpr std::array background_regions{TruthRegion::surfaces, TruthRegion::rims,
+                                        TruthRegion::thin};
 
 /// Errors of depth as parallax in the picture of the next rig.
 class DepthErrors {

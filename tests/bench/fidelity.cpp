@@ -35,7 +35,8 @@ double outliers(const ColourImage& picture, const ColourImage& truth) {
     cv::Mat error;
     cv::blur(error_of(picture, truth), error, {outlier_box_px, outlier_box_px});
     error = cv::abs(error);
-    return cv::countNonZero(largest(error) > outlier_threshold) / static_cast<double>(picture.total());
+    return cv::countNonZero(largest(error) > outlier_threshold) /
+           static_cast<double>(picture.total());
 }
 
 void Fidelity::add(const ColourImage& picture, const ColourImage& truth) {
@@ -46,7 +47,7 @@ void Fidelity::add(const ColourImage& picture, const ColourImage& truth) {
 }
 
 void Flicker::add(const ColourImage& before, const ColourImage& truth_before,
-                   const ColourImage& now, const ColourImage& truth_now, const cv::Mat1b& mask) {
+                  const ColourImage& now, const ColourImage& truth_now, const cv::Mat1b& mask) {
     cv::Mat change;
     cv::absdiff(error_of(before, truth_before), error_of(now, truth_now), change);
     const cv::Scalar mean = cv::mean(change, mask);

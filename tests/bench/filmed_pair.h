@@ -49,7 +49,7 @@ class StageFilm {
 /// A set of the virtual stage at one instant: 0 is the show, others are random sets, seen from one
 /// side each, with sensor noise (8-bit grey levels).
 inline FilmedPair filmed_background(const ShaderLibrary& library, std::uint64_t set, cv::Size size,
-                             double noise_sigma) {
+                                    double noise_sigma) {
     VirtualStage stage(library, set);
     return StageFilm(stage, {.azimuth_rad = 0.4 * static_cast<double>(set),
                              .width_px = size.width,

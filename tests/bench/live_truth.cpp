@@ -6,9 +6,9 @@
 
 #include "common/gl/context/egl_context.h"
 #include "host_app/synthesis/synthesiser.h"
+#include "tests/bench/background_truth.h"
 #include "tests/bench/markdown_tables.h"
 #include "tests/bench/played_truth.h"
-#include "tests/bench/background_truth.h"
 #include "tests/bench/size_option.h"
 #include "tests/bench/stepped_truth.h"
 

@@ -150,7 +150,7 @@ std::string played_table(const PlayedTruth& wanted) {
             is_new) {
             if (before)
                 flicker.add(played.shown[*before].picture, truth_before, shown.picture, truth,
-                             cv::Mat1b(truth.size(), 255));
+                            cv::Mat1b(truth.size(), 255));
             before = i;
             truth_before = truth;
         }

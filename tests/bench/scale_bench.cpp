@@ -112,7 +112,7 @@ Result measure(const ScaleRigs& wanted, const Case& how) {
                            [&](const ArrivedFrame& frame) { recorder.offer(frame); });
         for (std::size_t i = 0; i < stage.rigs.size(); ++i)
             host.set_decoded(stage.rigs[i].name,
-                         how.looked_at < 0 || i < static_cast<std::size_t>(how.looked_at));
+                             how.looked_at < 0 || i < static_cast<std::size_t>(how.looked_at));
         const auto came = [&] {
             const ReceiverStatus status = host.status();
             return std::any_of(status.rigs.begin(), status.rigs.end(),

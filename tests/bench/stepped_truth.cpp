@@ -121,8 +121,8 @@ void write_beside(const std::string& folder, const std::string& name, const Colo
 
 /// What is learnt of the set while performers walk a whole loop of the stage.
 Background set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrary& library,
-                        VirtualStage& stage, std::span<const std::unique_ptr<MatchingRig>> rigs,
-                        bool with_own_depth) {
+                         VirtualStage& stage, std::span<const std::unique_ptr<MatchingRig>> rigs,
+                         bool with_own_depth) {
     constexpr std::chrono::milliseconds loop{24000}, step{800};
     // Told to be closer in time than they are, so that they make one mean.
     constexpr double told_dt_s = 0.2;
@@ -179,7 +179,8 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
             set_of_a_loop(find_synthesiser(wanted.synthesisers.front()), library, stage, rigs,
                           !wanted.with_exact_depth));
         for (Runner& runner : runners)
-            if (BackgroundAccess* memory = runner.preparer->background_access()) memory->begin_with(learnt);
+            if (BackgroundAccess* memory = runner.preparer->background_access())
+                memory->begin_with(learnt);
     }
 
     const auto instants = static_cast<std::uint64_t>(
@@ -276,7 +277,8 @@ std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& want
         "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}; {:g} "
         "instants a second, prepared at level {} and rendered at level {}; three cameras between "
         "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
-        "| synthesiser | scene | PSNR dB | of the background | of performers | SSIM | outlier pixels | performers' "
+        "| synthesiser | scene | PSNR dB | of the background | of performers | SSIM | outlier "
+        "pixels | performers' "
         "edges: mean error | flicker: background | performers |{}\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,

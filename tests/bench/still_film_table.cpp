@@ -185,7 +185,8 @@ void print_still_film_table(const ShaderLibrary& library) {
     }
     fmt::print("| **mean** |");
     for (std::size_t i = 0; i < sums.size(); i += 2)
-        fmt::print(" **{:.1f} / {:.1f}** |", sums[i] / stage_frame_sets, sums[i + 1] / stage_frame_sets);
+        fmt::print(" **{:.1f} / {:.1f}** |", sums[i] / stage_frame_sets,
+                   sums[i + 1] / stage_frame_sets);
     fmt::print(
         "\n\nbad-2.0 in percent on these films, of what stands still / of what moves\n\n"
         "| scene | quality | denoised | balanced | denoised | fast | denoised |\n"

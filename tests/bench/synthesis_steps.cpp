@@ -109,7 +109,8 @@ ColourImage steps() {
     SourceMapOverlay overlay(library);
     const ColourImage origins = overlay.lay(picture, *renderer->origins()).download();
     const auto told = apart.prepare(target, prepare_levels().front());
-    const auto& performers = dynamic_cast<const ForegroundInstant&>(*told->extra).rigs.at(shown_rig);
+    const auto& performers =
+        dynamic_cast<const ForegroundInstant&>(*told->extra).rigs.at(shown_rig);
 
     // An instant's rigs come by their use for the view.
     const InstantRig& rig = *std::find_if(

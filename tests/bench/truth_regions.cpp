@@ -59,7 +59,8 @@ TruthRegions::TruthRegions(VirtualStage& stage, const StageCamera& camera) {
         if (background_depth_m_.empty())
             background_depth_m_ = depth_m;
         else
-            background_depth_m_ = DepthImage(cv::max(cv::Mat(background_depth_m_), cv::Mat(depth_m)));
+            background_depth_m_ =
+                DepthImage(cv::max(cv::Mat(background_depth_m_), cv::Mat(depth_m)));
     }
     cv::Mat far, near, opened;
     cv::dilate(background_depth_m_, far, square_of(3));

@@ -434,8 +434,8 @@ void write_takes(const Seeds& seeds) {
 
 void write_frame_sets(const Seeds& seeds) {
     const RigBackground rig{"rig-a", "fnv1a64:0123456789abcdef",
-                           ColourImage(3, 4, cv::Vec4b(9, 8, 7, 6)), DepthImage(3, 4, 2.5f),
-                           cv::Mat1b(3, 4, uchar{200})};
+                            ColourImage(3, 4, cv::Vec4b(9, 8, 7, 6)), DepthImage(3, 4, 2.5f),
+                            cv::Mat1b(3, 4, uchar{200})};
     seeds.write("background", "one", encode_background({tai_from_ns(1), {rig}}));
 }
 

@@ -17,7 +17,8 @@ constexpr const char* operator_input_program = "/usr/bin/xdotool";
 }  // namespace
 
 bool VirtualScreen::is_there() {
-    return std::filesystem::exists(server_program) && std::filesystem::exists(operator_input_program);
+    return std::filesystem::exists(server_program) &&
+           std::filesystem::exists(operator_input_program);
 }
 
 VirtualScreen::VirtualScreen(int width_px, int height_px) {

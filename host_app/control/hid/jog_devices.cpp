@@ -128,7 +128,8 @@ class JogDevices::Reader {
     std::thread thread_;
 };
 
-JogDevices::JogDevices(std::unique_ptr<JogBus> bus, std::vector<WheelProfile> profiles, Options options)
+JogDevices::JogDevices(std::unique_ptr<JogBus> bus, std::vector<WheelProfile> profiles,
+                       Options options)
     : bus_(std::move(bus)),
       profiles_(std::move(profiles)),
       options_(options),

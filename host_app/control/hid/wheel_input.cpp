@@ -155,7 +155,7 @@ std::string WheelInput::obey(Wheel& wheel, const WheelCall& call) {
 }
 
 void WheelInput::set(Wheel& wheel, const std::string& table, const std::string& key,
-                    const std::string& value) {
+                     const std::string& value) {
     const WheelProfile& old = *wheel.profile;
     auto changed = std::make_shared<WheelProfile>(
         read_wheel_profile(with_toml_value(old.text, table, key, value, old.file), old.file));

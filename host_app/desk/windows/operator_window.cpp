@@ -297,9 +297,11 @@ void OperatorWindow::press_at_cursor() {
     for (const DeskSpots::Numbered& output : drawn_.spots.outputs)
         if (is_on(output.rect)) input_.commands.push_back(command::ToggleOutput{output.number});
     for (const DeskSpots::Numbered& clip : drawn_.spots.clips)
-        if (is_on(clip.rect)) input_.commands.push_back(ReplayCall{ReplayAction::hold_clip, clip.number});
+        if (is_on(clip.rect))
+            input_.commands.push_back(ReplayCall{ReplayAction::hold_clip, clip.number});
     for (const DeskSpots::Numbered& entry : drawn_.spots.entries)
-        if (is_on(entry.rect)) input_.commands.push_back(ReplayCall{ReplayAction::select_entry, entry.number});
+        if (is_on(entry.rect))
+            input_.commands.push_back(ReplayCall{ReplayAction::select_entry, entry.number});
     if (is_on(drawn_.spots.live)) input_.commands.push_back(command::ToLive{});
     if (is_on(drawn_.in_hand())) press_on_picture();
     drags_outside_ = is_on(drawn_.spots.outside);
@@ -322,8 +324,8 @@ void OperatorWindow::press_on_picture() {
     pressed_s_ = is_second ? -1 : now_s;
     if (!is_second) return;
     const DeskRect& picture = drawn_.in_hand();
-    input_.commands.push_back(command::PickPivot{{(cursor_x_ - picture.left) / picture.width,
-                                                  (cursor_y_ - picture.top) / picture.height}});
+    input_.commands.push_back(command::PickPivot{
+        {(cursor_x_ - picture.left) / picture.width, (cursor_y_ - picture.top) / picture.height}});
 }
 
 void OperatorWindow::on_cursor(GLFWwindow* window, double x, double y) {

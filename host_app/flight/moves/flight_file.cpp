@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "common/config/toml_reader.h"
 #include "common/config/toml_edit.h"
+#include "common/config/toml_reader.h"
 #include "host_app/flight/flight_book.h"
 #include "host_app/flight/orbit_view.h"
 
@@ -74,7 +74,8 @@ void refuse_all(const TomlTable& table, std::initializer_list<const char*> keys,
 void read_eye(TomlTable& table, const Eigen::Vector3d& eye, OrbitView& view) {
     Eigen::Vector3d target = view.pivot_m;
     table.read("target_m", std::span<double>(target.data(), 3), {-30, 30});
-    if ((eye - target).norm() < 1e-6) table.refuse("eye_m", "must not be the same point as target_m");
+    if ((eye - target).norm() < 1e-6)
+        table.refuse("eye_m", "must not be the same point as target_m");
     const double roll_rad = view.roll_rad;
     view = view_from_eye(eye, target, view.field_of_view_rad, view.azimuth_rad);
     view.roll_rad = roll_rad;
@@ -124,9 +125,10 @@ void check_camera(const TomlTable& table, const char* key, OrbitView& view,
     const Eigen::Vector3d eye = view.eye_m();
     if (!is_orbit) {
         if (eye.y() < limits.min_eye_height_m - rounding_m)
-            table.refuse(key, fmt::format("belongs to a camera at a height of {:.2f} m; the minimum "
-                                          "is {} m (lowest_m)",
-                                          eye.y(), limits.min_eye_height_m));
+            table.refuse(key,
+                         fmt::format("belongs to a camera at a height of {:.2f} m; the minimum "
+                                     "is {} m (lowest_m)",
+                                     eye.y(), limits.min_eye_height_m));
         return;
     }
     const OrbitView allowed = constrained(view, limits);
@@ -176,8 +178,10 @@ void read_shot(TomlTable& table, FlightBook& book, const FlightLimits& limits) {
     table.read("number", number, {1, static_cast<int>(most_shots)});
     if (number == 0) return;
     std::optional<Shot>& place = book.shots[static_cast<std::size_t>(number - 1)];
-    if (place) table.refuse("number", fmt::format("is {} for the second time; give every shot its own number",
-                                                     number));
+    if (place)
+        table.refuse(
+            "number",
+            fmt::format("is {} for the second time; give every shot its own number", number));
     Shot shot;
     table.read("name", shot.name);
     if (const std::string fault = fault_of_name(shot.name); !fault.empty())
@@ -252,8 +256,7 @@ FlightBook load_flight(const std::filesystem::path& path) {
 
 Move Move::load(const std::filesystem::path& path) {
     FlightBook book = load_flight(path);
-    if (!book.move)
-        fail("{} contains no move; add a [[keyframe]] with time_s = 0", path.string());
+    if (!book.move) fail("{} contains no move; add a [[keyframe]] with time_s = 0", path.string());
     return *std::move(book.move);
 }
 

@@ -28,8 +28,8 @@ struct SimplifiedFlight {
 };
 
 /// Simplifies a recorded flight to a move of few keyframes that stays within the tolerance at every
-/// sample. If that would need more than most_keyframes, the tolerance is doubled until they suffice.
-/// Times start at the first sample. Preconditions: at least one sample, times increase.
+/// sample. If that would need more than most_keyframes, the tolerance is doubled until they
+/// suffice. Times start at the first sample. Preconditions: at least one sample, times increase.
 SimplifiedFlight simplified(const FlightRecording& flight, const FlightTolerance& tolerance,
                             const FlightLimits& limits, MovePath path);
 

@@ -80,7 +80,8 @@ class Move {
 
     std::vector<MoveKeyframe> keyframes_;
     std::vector<Channels> values_, tangents_;
-    std::vector<Eigen::Quaterniond> turns_;  ///< free path only; each in the hemisphere of the one before
+    std::vector<Eigen::Quaterniond>
+        turns_;  ///< free path only; each in the hemisphere of the one before
     bool loop_;
     FlightLimits limits_;
     MovePath path_;

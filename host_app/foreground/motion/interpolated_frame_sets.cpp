@@ -17,7 +17,8 @@ const FrameSet* InterpolatedFrameSets::fetch(const PastFrameSets& past, std::uin
     return &sets_.emplace(pulse, std::move(*set)).first->second;
 }
 
-std::optional<FrameSet> InterpolatedFrameSets::at(const PastFrameSets& past, std::uint64_t pulse, double share) {
+std::optional<FrameSet> InterpolatedFrameSets::at(const PastFrameSets& past, std::uint64_t pulse,
+                                                  double share) {
     std::erase_if(sets_,
                   [&](const auto& each) { return each.first != pulse && each.first != pulse + 1; });
     const FrameSet* first = fetch(past, pulse);

@@ -32,7 +32,8 @@ AlsaPlayback::AlsaPlayback(const std::string& name) : name_(name) {
     snd_pcm_hw_params_t* request = nullptr;
     snd_pcm_hw_params_alloca(&request);
     code = snd_pcm_hw_params_any(device, request);
-    if (code >= 0) code = snd_pcm_hw_params_set_access(device, request, SND_PCM_ACCESS_RW_INTERLEAVED);
+    if (code >= 0)
+        code = snd_pcm_hw_params_set_access(device, request, SND_PCM_ACCESS_RW_INTERLEAVED);
     if (code >= 0) code = snd_pcm_hw_params_set_format(device, request, SND_PCM_FORMAT_S16_LE);
     if (code >= 0) code = snd_pcm_hw_params_set_rate(device, request, sound_rate_hz, 0);
     unsigned buffer = playback_buffer_us, period = playback_period_us;

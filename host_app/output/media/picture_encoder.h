@@ -58,8 +58,8 @@ class PictureEncoder {
 };
 
 /// The first of known_encoders() that encodes pictures of these settings when it is tried; with
-/// `request` that one. Tells in the log which it is, and why those before it are not. Throws Error if
-/// none does.
+/// `request` that one. Tells in the log which it is, and why those before it are not. Throws Error
+/// if none does.
 std::string choose_encoder(const std::string& request, const EncoderSettings& settings);
 
 }  // namespace vantage

@@ -93,7 +93,7 @@ class V4l2Target final : public OutputTarget {
         v4l2_streamparm request{};
         request.type = V4L2_BUF_TYPE_VIDEO_OUTPUT;
         request.parm.output.timeperframe = {static_cast<std::uint32_t>(rate.seconds),
-                                         static_cast<std::uint32_t>(rate.pulses)};
+                                            static_cast<std::uint32_t>(rate.pulses)};
         (void)::ioctl(fd_.get(), VIDIOC_S_PARM, &request);
     }
 

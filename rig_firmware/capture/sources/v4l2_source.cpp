@@ -11,12 +11,12 @@ SourceEntry v4l2_source_entry() {
                     config, [source = config.source](const std::string& device, bool side_by_side) {
                         return std::make_unique<V4l2Camera>(
                             V4l2Settings{.path = device,
-                                     .width_px = source.width_px * (side_by_side ? 2 : 1),
-                                     .height_px = source.height_px,
-                                     .rate_hz = PulseGrid(source.rate_hz).rate_hz(),
-                                     .pixel_format = source.pixel_format,
-                                     .controls = source.controls,
-                                     .share_buffers = source.buffers != "copy"});
+                                         .width_px = source.width_px * (side_by_side ? 2 : 1),
+                                         .height_px = source.height_px,
+                                         .rate_hz = PulseGrid(source.rate_hz).rate_hz(),
+                                         .pixel_format = source.pixel_format,
+                                         .controls = source.controls,
+                                         .share_buffers = source.buffers != "copy"});
                     });
             }};
 }

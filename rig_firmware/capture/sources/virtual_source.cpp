@@ -69,11 +69,12 @@ class VirtualSource final : public StereoSource {
     }
 
     std::vector<std::string> report() const override {
-        return {fmt::format(
-            "virtual stage, scene {}, two {}x{} cameras at {} Hz, noise of {} grey levels, keeps {} "
-            "of {} pairs of its loop",
-            scene_, size().width, size().height, pulses_.rate_hz(), noise_.sigma, loop_.kept(),
-            loop_.room())};
+        return {
+            fmt::format("virtual stage, scene {}, two {}x{} cameras at {} Hz, noise of {} grey "
+                        "levels, keeps {} "
+                        "of {} pairs of its loop",
+                        scene_, size().width, size().height, pulses_.rate_hz(), noise_.sigma,
+                        loop_.kept(), loop_.room())};
     }
 
   private:

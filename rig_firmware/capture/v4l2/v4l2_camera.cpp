@@ -141,14 +141,15 @@ void V4l2Camera::choose_format(const V4l2Settings& request) {
         const bool has = std::any_of(formats.begin(), formats.end(), [&](const V4l2Format& format) {
             return format.fourcc == fourcc_of(known);
         });
-        if (has && (request.pixel_format.empty() || parse_pixel_format(request.pixel_format) == known))
+        if (has &&
+            (request.pixel_format.empty() || parse_pixel_format(request.pixel_format) == known))
             candidates.push_back(known);
     }
     if (candidates.empty())
-        fail(
-            "the camera {} has no picture format that {}; it offers {}", request.path.string(),
-            request.pixel_format.empty() ? "is understood" : fmt::format("is '{}'", request.pixel_format),
-            listed.empty() ? "none" : listed);
+        fail("the camera {} has no picture format that {}; it offers {}", request.path.string(),
+             request.pixel_format.empty() ? "is understood"
+                                          : fmt::format("is '{}'", request.pixel_format),
+             listed.empty() ? "none" : listed);
     cv::Size offered, ignored;
     for (const PixelFormat candidate : candidates) {
         if (!set_format(candidate, request, true, offered)) continue;

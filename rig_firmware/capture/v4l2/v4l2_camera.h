@@ -76,7 +76,8 @@ class V4l2Camera final : public SensorCamera {
     };
 
     void choose_format(const V4l2Settings& request);
-    bool set_format(PixelFormat format, const V4l2Settings& request, bool only_try, cv::Size& offered);
+    bool set_format(PixelFormat format, const V4l2Settings& request, bool only_try,
+                    cv::Size& offered);
     void set_rate(double rate_hz);
     void set_controls(const std::map<std::string, int>& requests);
     void map_buffers(bool share_them);

@@ -184,8 +184,8 @@ void TwoRigShow::expect_balanced(const nlohmann::json& rig) {
     const auto count = [&](const char* place, const char* what) {
         return rig[place][what].get<std::int64_t>();
     };
-    EXPECT_EQ(count("host", "in_frame_sets"), count("host", "fused") + count("host", "replaced") +
-                                            count("host", "in_dropped_sets"))
+    EXPECT_EQ(count("host", "in_frame_sets"),
+              count("host", "fused") + count("host", "replaced") + count("host", "in_dropped_sets"))
         << rig;
     const std::int64_t open = count("host", "received") - count("host", "in_frame_sets") -
                               count("host", "late") - count("host", "duplicate") -

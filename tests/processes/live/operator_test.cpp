@@ -27,9 +27,9 @@ namespace {
 
 constexpr double show_rate_hz = 5, tick_rate_hz = 25;
 
-/// A whole show with all its controllers, each over a loopback socket: an operator over OSC, a panel
-/// over RossTalk, a mixer over TSL UMD, a tracked camera over FreeD, and a graphics computer that
-/// receives the camera of every tick.
+/// A whole show with all its controllers, each over a loopback socket: an operator over OSC, a
+/// panel over RossTalk, a mixer over TSL UMD, a tracked camera over FreeD, and a graphics computer
+/// that receives the camera of every tick.
 class WholeShow : public testing::Test {
   protected:
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }

@@ -124,7 +124,7 @@ GreyImage BoardCamera::film(const std::vector<PlacedBoard>& boards, const Pictur
                                        ((j + 0.5) / samples_per_side - 0.5) * dy,
                                    {x, y});
             };
-        // There is no edge among samples whose outermost four are equal.
+            // There is no edge among samples whose outermost four are equal.
             constexpr int last = samples_per_side - 1;
             const double first = sample(0, 0);
             if (sample(last, 0) == first && sample(0, last) == first &&

@@ -166,9 +166,9 @@ TEST(RigCalibration, of_the_same_pictures_is_the_same_to_the_last_bit) {
     const auto id_of_a_run = [] {
         SyntheticViews views(chessboard, 0.1);
         const SyntheticRig::Series series = SyntheticRig().film(views, 8);
-        return calibration_checksum(
-            calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("radial2")})
-                .calibration);
+        return calibration_checksum(calibrate_rig(series.left, series.right, chessboard,
+                                                  {.family = &lens_family("radial2")})
+                                        .calibration);
     };
     const std::string first = id_of_a_run();
     std::vector<std::vector<char>> holes;

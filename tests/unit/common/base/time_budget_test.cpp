@@ -1,6 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "common/base/time/time_budget.h"
+
+#include <gtest/gtest.h>
 
 using namespace std::chrono_literals;
 

@@ -1,3 +1,5 @@
+#include "common/gl/context/driver_lock.h"
+
 #include <atomic>
 #include <deque>
 #include <future>
@@ -9,7 +11,6 @@
 #include <malloc.h>
 
 #include "common/gl/context/context_group.h"
-#include "common/gl/context/driver_lock.h"
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/objects/fence.h"
 #include "common/gl/objects/framebuffer.h"

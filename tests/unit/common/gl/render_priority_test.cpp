@@ -1,10 +1,11 @@
+#include "common/gl/context/render_priority.h"
+
 #include <atomic>
 #include <thread>
 
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
-#include "common/gl/context/render_priority.h"
 #include "common/gl/sliced_drawing.h"
 
 using namespace std::chrono_literals;

@@ -212,8 +212,7 @@ TEST_F(StagedPreparerTest, ExplainsWhyALoadedBackgroundDoesNotFit) {
     other_place.take({&moved, 1}, 0.2);
     RigBackgroundState state = other_place.background_access()->states().at(0);
     EXPECT_FALSE(state.is_loaded);
-    EXPECT_NE(state.misfit.find("another calibration or image size of rig only"),
-              std::string::npos)
+    EXPECT_NE(state.misfit.find("another calibration or image size of rig only"), std::string::npos)
         << state.misfit;
     EXPECT_EQ(state.known, 0);
 

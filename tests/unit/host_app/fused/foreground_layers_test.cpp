@@ -1,7 +1,8 @@
+#include "host_app/fused/foreground_layers.h"
+
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
-#include "host_app/fused/foreground_layers.h"
 #include "tests/unit/host_app/fused/drawn_surfaces.h"
 
 namespace vantage {

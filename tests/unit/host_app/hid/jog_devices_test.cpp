@@ -1,6 +1,7 @@
+#include "host_app/control/hid/jog_devices.h"
+
 #include <gtest/gtest.h>
 
-#include "host_app/control/hid/jog_devices.h"
 #include "host_app/control/hid/jog_mapper.h"
 #include "tests/unit/host_app/hid/scripted_port.h"
 
@@ -17,8 +18,9 @@ class JogDevicesTest : public testing::Test {
             JogPlace{.path = path, .id = {0x0b33, 0x0020}, .name = "ShuttleXpress", .serial = {}});
     }
     std::unique_ptr<JogDevices> deck(bool raw = false) {
-        return std::make_unique<JogDevices>(sockets_.bus(), load_wheel_profiles(),
-                                         JogDevices::Options{.raw_reports = raw, .look_every = 5ms});
+        return std::make_unique<JogDevices>(
+            sockets_.bus(), load_wheel_profiles(),
+            JogDevices::Options{.raw_reports = raw, .look_every = 5ms});
     }
     /// The next event; one of kind `report` without a profile if none came.
     static DeckEvent next(JogDevices& deck) {

@@ -1,9 +1,10 @@
+#include "host_app/control/hid/wheel_input.h"
+
 #include <cstdlib>
 
 #include <gtest/gtest.h>
 
 #include "common/base/files/atomic_file.h"
-#include "host_app/control/hid/wheel_input.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {

@@ -1,8 +1,9 @@
+#include "host_app/output/output_supervisor.h"
+
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
 #include "host_app/output/media/picture_encoder.h"
-#include "host_app/output/output_supervisor.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/host_app/output/given_pictures.h"
@@ -15,12 +16,13 @@ class OutputSupervisorTest : public testing::Test {
   protected:
     std::string at(const std::string& name) const { return (folder_.path() / name).string(); }
     OutputSupervisor::Settings settings(const std::vector<std::string>& urls,
-                                  const std::string& encoder = "libx264") const {
+                                        const std::string& encoder = "libx264") const {
         return {.format = {.width_px = 64, .height_px = 48, .rate_hz = 25, .encoder = encoder},
                 .pulse_rate_hz = 25,
                 .urls = urls};
     }
-    static void give(OutputSupervisor& desk, PictureSink& sink, std::uint64_t from, std::uint64_t count) {
+    static void give(OutputSupervisor& desk, PictureSink& sink, std::uint64_t from,
+                     std::uint64_t count) {
         for (std::uint64_t i = 0; i < count; ++i) {
             ASSERT_TRUE(wait_for([&] {
                 for (const OutputState& state : desk.states())

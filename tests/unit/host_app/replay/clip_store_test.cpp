@@ -1,8 +1,9 @@
+#include "host_app/replay/clip_store.h"
+
 #include <fstream>
 
 #include <gtest/gtest.h>
 
-#include "host_app/replay/clip_store.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 

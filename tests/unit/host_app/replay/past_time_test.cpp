@@ -52,9 +52,9 @@ TEST_P(PastTime, TakesEveryMarkBetweenTheNumbers) {
 
 TEST_P(PastTime, NamesLabelsThatDoNotExist) {
     EXPECT_NE(refusal("23:55:07:60").find("does not exist"), std::string::npos);
-    EXPECT_EQ(refusal("23:51:00:00").find("begins this minute with 23:51:00;02") !=
-                  std::string::npos,
-              GetParam() == 29.97)
+    EXPECT_EQ(
+        refusal("23:51:00:00").find("begins this minute with 23:51:00;02") != std::string::npos,
+        GetParam() == 29.97)
         << refusal("23:51:00:00");
     EXPECT_EQ(refusal("23:51:00:02"), "");
 }

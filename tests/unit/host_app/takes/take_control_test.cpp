@@ -1,9 +1,10 @@
+#include "host_app/takes/take_control.h"
+
 #include <fstream>
 #include <map>
 
 #include <gtest/gtest.h>
 
-#include "host_app/takes/take_control.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {

@@ -17,8 +17,8 @@ TEST(NumberedFiles, WritesNumbersAsPrintfDoes) {
 }
 
 TEST(NumberedFiles, RefusesOtherPatterns) {
-    for (const char* pattern : {"left.png", "%s.png", "%d_%d.png", "%4d.png", "%.png", "%%d.png",
-                                "take_%d/left.png"})
+    for (const char* pattern :
+         {"left.png", "%s.png", "%d_%d.png", "%4d.png", "%.png", "%%d.png", "take_%d/left.png"})
         EXPECT_THROW(NumberedFiles{pattern}, Error) << pattern;
 }
 
