@@ -26,7 +26,7 @@ class PictureDelay {
         const auto middle = sorted.begin() + (sorted_end - sorted.begin()) / 2;
         std::nth_element(sorted.begin(), middle, sorted_end);
         // A third of a picture at 30 Hz.
-        // A third of a picture at 30 Hz.
+        constexpr std::chrono::milliseconds unseen{10};
         if (seen_ == 1 || std::chrono::abs(*middle - now_) > unseen) now_ = *middle;
     }
     std::chrono::nanoseconds now() const { return now_; }

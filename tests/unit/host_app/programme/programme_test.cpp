@@ -13,6 +13,7 @@
 #include "common/base/error.h"
 #include "common/gl/context/context_group.h"
 #include "common/gl/context/driver_lock.h"
+#include "host_app/programme/reprojection.h"
 #include "tests/support/eventually.h"
 #include "tests/support/gpu_reset.h"
 #include "tests/unit/host_app/frames/scripted_feed.h"
