@@ -40,7 +40,7 @@ std::uint64_t pulse_in_past(const std::string& words, const PastFrameSets::Span&
     if (const std::string why = clock.why_never(*label); !why.empty()) fail("{} {}", words, why);
     if (const auto pulse = clock.find(*label, past.oldest, past.newest, tai_offset_s))
         return *pulse;
-    fail("{} is not in the past that there is, from {} to {}", words,
+    fail("{} is outside the past, which goes from {} to {}; give a time within it", words,
          clock.of_pulse(past.oldest, tai_offset_s), clock.of_pulse(past.newest, tai_offset_s));
 }
 

@@ -153,7 +153,8 @@ TEST_F(StrangerWatchTest, LimitsTheLinesAboutUnlistedKeys) {
     }
     const std::vector<std::string> lines = recent_log_lines();
     const auto named = std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
-        return line.find((folder_.path() / "hosts.keys").string() + " to admit it") != line.npos;
+        return line.find("to admit it, add the key to " +
+                         (folder_.path() / "hosts.keys").string()) != line.npos;
     });
     EXPECT_EQ(named, 8);
 }

@@ -245,7 +245,7 @@ TEST_F(MoveFile, RejectsInvalidValuesWithFileLineAndReason) {
         {head + first + "elevation_deg = -40\n" + second, ":3:", "floor"},
         {head + first + "eye_m = [1, 2, 3]\nazimuth_deg = 4\n" + second, ":5:", "eye_m"},
         {head + first + "target_m = [1, 2, 3]\n" + second, ":", "eye_m"},
-        {head + first + "eye_m = [0, 1, 0]\n" + second, ":4:", "looks at"},
+        {head + first + "eye_m = [0, 1, 0]\n" + second, ":4:", "same point as target_m"},
         {head + first + "distance_m = 0.01\n" + second, ":4:", "0.02"},
         {head + "loop = true\n" + first + "azimuth_deg = 5\n" + second + "azimuth_deg = 6\n",
          ":2:", "first"},

@@ -58,8 +58,8 @@ TEST_F(ClipFile, RejectsInvalidValuesWithTheLine) {
     expect_refused(
         "[[clip]]\nnumber = 1\nin_pulse = 5\nout_pulse = 6\n"
         "[[clip]]\nnumber = 1\nin_pulse = 5\nout_pulse = 6\n",
-        "a second time");
-    expect_refused("[[entry]]\nclip = 3\n", "there is no such clip");
+        "for the second time");
+    expect_refused("[[entry]]\nclip = 3\n", "the file has no such clip");
     expect_refused("mix = true\n", "mix");
 }
 
