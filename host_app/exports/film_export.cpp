@@ -273,7 +273,7 @@ ExportStats export_film(std::shared_ptr<const TakeReader> take,
                         const std::filesystem::path& file, const std::function<bool()>& is_wanted,
                         const std::function<void(double)>& progress) {
     if (std::filesystem::exists(file))
-        fail("{} exists: choose another name for the film", file.string());
+        fail("{} already exists; choose another name for the film", file.string());
     const SynthesiserEntry synthesiser = find_synthesiser(settings.synthesiser);
     require_film_name(file);
     const std::filesystem::path folder = FilmParts::folder_of(file);
