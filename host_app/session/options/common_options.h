@@ -16,7 +16,7 @@ namespace vantage {
 
 /// Help of --stage, with the place of the documented example in the sources and in the packages.
 inline constexpr const char* stage_file_help =
-    "Stage file (TOML); hw_config/stage.toml explains every key (installed: "
+    "Stage file (TOML); every key is in hw_config/stage.toml (installed: "
     "/usr/share/doc/vantage/examples/stage.toml)";
 /// The files that --wheels accepts.
 inline constexpr const char* wheel_files_help =

@@ -141,6 +141,13 @@ TEST_F(ProgramTest, BindsInputsByName) {
     Texture whole(TextureFormat::r16ui, 1, 1);
     whole.upload(cv::Mat1w(1, 1, std::uint16_t{7}));
     const Texture first = grey(10), last = grey(20), one = grey(30), other = grey(40);
+    // Made before the inputs are bound: a new texture is bound to the active unit.
+    const Texture target(TextureFormat::rgba8, 3, 3);
+    const Framebuffer framebuffer({&target});
+    const auto painted = [&] {
+        pass.draw(framebuffer);
+        return cv::Mat4b(target.download())(1, 1);
+    };
     Program& program = pass.use();
     program.input("one", one);
     program.input("list", 2, last);
@@ -149,9 +156,13 @@ TEST_F(ProgramTest, BindsInputsByName) {
     program.input("removed_by_the_compiler", other);
     program.set("gains", 1, 1 / 255.0f);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-    EXPECT_EQ(painted_by(pass), cv::Vec4b(255, 11, 20, 30));
-    pass.use().input("one", other);
-    EXPECT_EQ(painted_by(pass), cv::Vec4b(255, 11, 20, 40)) << "the other inputs stay";
+    EXPECT_EQ(painted(), cv::Vec4b(255, 11, 20, 30));
+    // download() has bound the target to the active unit.
+    pass.use().input("whole", whole);
+    program.input("list", 2, last);
+    program.input("list", 0, first);
+    program.input("one", other);
+    EXPECT_EQ(painted(), cv::Vec4b(255, 11, 20, 40));
 }
 
 /// Counts, for every cell of a grid, how often it is visited; and visits beyond the grid.
