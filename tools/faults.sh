@@ -64,7 +64,7 @@ play() { # name, seconds, whether anything befalls it
       --record "$out/$name.mkv" --overwrite
   ) >"$out/$name.json" 2>>"$out/$name.log" &
   host=$!
-  until grep -q ' pictures, ' "$out/$name.log"; do sleep 0.2; kill -0 $host; done
+  until grep -q ' frames, ' "$out/$name.log"; do sleep 0.2; kill -0 $host; done
   started=$(date +%s)
   : >"$out/$name.memory"
   local done=0 cycles=0 moment now

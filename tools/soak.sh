@@ -51,7 +51,7 @@ LD_PRELOAD=${seed:+$libraries/clock.so} start_rigs "$out" "$out"
     --json >"$out/soak.json" 2>"$out/live.log"
 ) &
 host=$!
-until grep -qs ' pictures, ' "$out/live.log"; do sleep 0.2; kill -0 $host; done
+until grep -qs ' frames, ' "$out/live.log"; do sleep 0.2; kill -0 $host; done
 started=$(date +%s)
 
 declare -A times=()

@@ -43,7 +43,7 @@ build/release/bin/vantage live --stage "$out/demo/stage.toml" --past-mb 24 --rat
   --control "osc://:$osc" --control "rosstalk://:$panel" --control "tsl://:$mixer?address=5" --control "freed://:$tracker" \
   --metrics "http://:$metrics" >"$out/show.json" 2>"$out/live.log" 5>"$out/pipe" &
 host=$!
-until grep -qs ' pictures, ' "$out/live.log"; do
+until grep -qs ' frames, ' "$out/live.log"; do
   sleep 0.2
   kill -0 $host 2>/dev/null || { tail -2 "$out/live.log" >&2; echo "0 passed, 1 failed"; exit 1; }
 done

@@ -49,7 +49,7 @@ TEST_F(RelayFaults, ARelayThatDiesCostsTheTicksAndTheOtherRigNothing) {
     start_relay();
     write_relayed_stage();
     start_host({"--seconds", "600"}, "relayed.toml");
-    wait_for(*host_, " pictures, ");
+    wait_for(*host_, " frames, ");
     // With pictures of one rig it begins.
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err() << relay_->err();
     wait_for_progress();

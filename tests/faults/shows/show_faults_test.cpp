@@ -17,7 +17,7 @@ class ShowFaults : public TwoRigShow {};
 
 TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     start_host({"--seconds", "600"});
-    wait_for(*host_, " pictures, ");
+    wait_for(*host_, " frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
 
     road_->impair({.lose_every = 10, .delay = 10ms});
@@ -62,7 +62,7 @@ TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
 
 TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {
     start_host({"--seconds", "600"});
-    wait_for(*host_, " pictures, ");
+    wait_for(*host_, " frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     host_->send_signal(SIGSTOP);
     // The rigs let a host go that says nothing.
@@ -88,7 +88,7 @@ TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {
 
 TEST_F(ShowFaults, ARigWhoseClockIsSetIsLeftOutUntilItIsRight) {
     start_host({"--seconds", "600"});
-    wait_for(*host_, " pictures, ");
+    wait_for(*host_, " frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     std::size_t times_right = 0;
     const auto expect_to_be_named_until = [&](const std::string& trouble, int right) {
@@ -124,7 +124,7 @@ TEST_F(ShowFaults, AStepOfARigsClockThatNothingElseShowsIsNamed) {
     far_ = start_far();
     wait_for(*far_, "publishing on");
     start_host({"--seconds", "600"});
-    wait_for(*host_, " pictures, ");
+    wait_for(*host_, " frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     const auto named_ms = [&](const std::string& words) {
         wait_for(*host_, words);

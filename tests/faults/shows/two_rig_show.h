@@ -44,7 +44,7 @@ class TwoRigShow : public testing::Test {
     bool far_is(const std::string& state) const;
     /// In the host's log.
     std::size_t count_of(const std::string& words) const;
-    std::size_t progress() const { return count_of(" pictures, "); }
+    std::size_t progress() const { return count_of(" frames, "); }
     void wait_for_progress();
     /// Sets that lacked the far rig after its trouble's end, before it was in every one again.
     /// Counted by the rig beside, so that a slow computer has as much time as it takes to film

@@ -22,7 +22,7 @@
 namespace vantage {
 namespace {
 
-constexpr const char* first_progress = " pictures, ";
+constexpr const char* first_progress = " frames, ";
 
 /// Two tiny rigs on the virtual stage and a host; each is a process.
 class LiveProcesses : public testing::Test {

@@ -117,7 +117,7 @@ TEST_F(LiveShowTest, RefusesAnUnknownSynthesiserByName) {
 TEST_F(LiveShowTest, RefusesASourceMapOfASynthesiserWithoutOne) {
     settings_.source_map = true;
     settings_.synthesiser = "points";
-    EXPECT_NE(refusal().find("'points' cannot tell"), std::string::npos) << refusal();
+    EXPECT_NE(refusal().find("'points' does not report"), std::string::npos) << refusal();
 }
 
 TEST_F(LiveShowTest, RefusesAStereoscopicPictureOfAnOddWidth) {
