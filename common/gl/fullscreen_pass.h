@@ -17,6 +17,9 @@ class FullscreenPass {
     Program& use();
     /// Draws with the program in use; depth test, blending and culling off.
     void draw(const Framebuffer& target);
+    /// The same for a shader that writes every pixel of the target: the old contents are discarded
+    /// first, which spares GPUs that draw in tiles (a Raspberry Pi's) reading them.
+    void overwrite(const Framebuffer& target);
     /// The same with a shader that writes gl_FragDepth into the target's depth texture.
     void draw_depth(const Framebuffer& target);
     /// Draws only those pixels where `depth` compares so (GL_LESS, GL_GREATER, ...) with the

@@ -57,6 +57,8 @@ struct RigHealth {
     float calibration_row_rms_px = 0;       ///< row error after rectification, when it was made
     std::string program_version;            ///< of the daemon, "0.2.0"; empty: it does not say
     std::uint64_t refused_connections = 0;  ///< of strangers, at the rig and at relays on the way
+    /// What the rig does before it can deliver frames, "compiling shaders, 7 of 21"; empty: it can.
+    std::string starting;
 
     bool operator==(const RigHealth&) const = default;
 };

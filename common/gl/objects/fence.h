@@ -23,9 +23,13 @@ class Fence {
     /// This thread waits until the GPU gets there, or for `time`; whether it did. Throws Error if
     /// the GPU is lost.
     bool reached_within(std::chrono::nanoseconds time) const;
-    /// This thread waits until the GPU gets there, however long that takes. Throws ContextLost with
-    /// `doing` if it was reset, Error if it is lost.
-    void wait(const char* doing) const;
+    /// No limit for wait().
+    static constexpr std::chrono::nanoseconds no_limit = std::chrono::nanoseconds::max();
+
+    /// This thread waits until the GPU gets there. Throws ContextLost with `doing` if it was reset
+    /// or has not got there within `limit` (it hangs, or a driver that cannot tell of resets has
+    /// reset it), Error if it is lost.
+    void wait(const char* doing, std::chrono::nanoseconds limit = no_limit) const;
     /// The current context's later commands wait for the point; this thread does not.
     void hold_current_context() const;
 

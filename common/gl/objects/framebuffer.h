@@ -33,6 +33,10 @@ class Framebuffer {
     /// Binds it for drawing and sets the viewport to its full size.
     void bind() const;
 
+    /// Binds it and tells the driver that the contents of its colour targets are of no use any
+    /// more, before a drawing that covers every pixel.
+    void discard_colours() const;
+
     /// Reads one colour target back into `image` (of the texture's size and cv_type; rows top-down
     /// as drawn). The previous framebuffer binding is restored. Waits for the GPU.
     void read(int target, cv::Mat& image) const;

@@ -53,6 +53,8 @@ class Program {
     Program(const ShaderLibrary& library, std::string first, std::string second,
             ShaderDefines defines);
     void build();
+    /// The file that names the program: of the compute or the fragment shader.
+    const std::string& file() const { return second_.empty() ? first_ : second_; }
     GLint location(std::string_view name);
 
     const ShaderLibrary* library_;
@@ -61,6 +63,7 @@ class Program {
     GlHandle<delete_program> handle_;
     GLint workgroup_[3] = {1, 1, 1};
     std::uint64_t generation_ = 0;
+    bool is_used_ = false;
     std::unordered_map<std::string, GLint> locations_;
 };
 

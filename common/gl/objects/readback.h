@@ -17,9 +17,9 @@ class Readback {
     /// Of the texture as everything drawn so far leaves it; what is drawn later changes nothing.
     void begin(const Texture& texture);
     bool is_begun() const { return layout_.has_value(); }
-    /// Waits until it is here. `pixels`: memory for it, where that has its size and type.
-    /// Precondition: is_begun(), which it is not afterwards.
-    cv::Mat take(cv::Mat pixels = {});
+    /// Waits until it is here, for at most `limit` (see Fence::wait). `pixels`: memory for it,
+    /// where that has its size and type. Precondition: is_begun(), which it is not afterwards.
+    cv::Mat take(cv::Mat pixels = {}, std::chrono::nanoseconds limit = Fence::no_limit);
 
   private:
     std::optional<Buffer> buffer_;

@@ -241,7 +241,7 @@ class LibcameraCamera final : public SensorCamera {
              size.height, request.pixel_format.empty() ? "a known format" : request.pixel_format, listed);
     }
 
-    void start(const RigConfig::Source& request) {
+    void start(const RigConfig::Source& settings) {
         libcamera::Stream* stream = configuration_->at(0).stream();
         allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
         if (allocator_->allocate(stream) <= 0)
@@ -255,7 +255,7 @@ class LibcameraCamera final : public SensorCamera {
         }
         camera_->requestCompleted.connect(this, &LibcameraCamera::on_completed);
         camera_->disconnected.connect(this, &LibcameraCamera::on_disconnected);
-        libcamera::ControlList controls = fixed_controls(request);
+        libcamera::ControlList controls = fixed_controls(settings);
         if (camera_->start(&controls) != 0)
             throw DeviceLost(fmt::format("camera '{}' does not start", camera_->id()));
         started_ = true;
