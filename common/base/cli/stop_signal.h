@@ -6,7 +6,8 @@ namespace vantage {
 
 /// Turns SIGINT and SIGTERM into a question that a loop asks, so that a program ends in order:
 /// files finished, sockets closed, the summary printed. To be made before any other thread is
-/// started, since threads inherit the blocked signals. A second signal ends the program at once.
+/// started, since threads inherit the blocked signals. A second signal ends the program at once, unless
+/// it follows the first one within `same_request`: then it is the same request, sent twice.
 class StopSignal {
   public:
     /// Throws Error if the system gives no descriptor for it.
@@ -15,6 +16,8 @@ class StopSignal {
     StopSignal(const StopSignal&) = delete;
     StopSignal& operator=(const StopSignal&) = delete;
 
+    /// A second signal that comes so soon is the same request.
+    static constexpr std::chrono::milliseconds same_request{500};
     /// So often looks who waits for something else meanwhile.
     static constexpr std::chrono::milliseconds look_period{50};
 
