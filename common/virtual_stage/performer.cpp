@@ -188,7 +188,7 @@ void pose_performer(const PerformerStyle& style, std::chrono::nanoseconds stage_
 void add_performer(StageMeshBuilder& builder, const PerformerStyle& style, int first_bone) {
     const auto on = [&](Bone bone, const StageMaterial& material) {
         builder.set_bone(first_bone + bone);
-        builder.background_material(material);
+        builder.set_material(material);
     };
     StageMaterial eyes = style.skin;
     eyes.tint = {0.12f, 0.10f, 0.10f};

@@ -47,22 +47,22 @@ void add_room(StageMeshBuilder& mesh, Dice& dice) {
     const int sides = 4 + dice.below(9);
     const float height = dice.between(3.5f, 6.0f), radius = dice.between(6.0f, 9.0f);
     mesh.begin_chunk({.casts_shadow = false});
-    mesh.background_material(any_material(dice, 0.45f));
+    mesh.set_material(any_material(dice, 0.45f));
     mesh.ring({0, 0, 0}, 0.0f, radius * 1.6f, 48, 14);
-    mesh.background_placement(Affine3f(Eigen::Translation3f(0, height, 0)) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(0, height, 0)) *
                        AngleAxisf(0.5f * tau, Vector3f::UnitX()));
-    mesh.background_material(any_material(dice, 0.35f));
+    mesh.set_material(any_material(dice, 0.35f));
     mesh.ring({0, 0, 0}, 0.0f, radius * 1.6f, 48, 6);
     mesh.end_chunk();
     const float turn = dice.between(0, tau);
     const float half = radius * std::tan(0.5f * tau / static_cast<float>(sides));
     for (int i = 0; i < sides; ++i) {
         mesh.begin_chunk(far_scenery);
-        mesh.background_placement(
+        mesh.set_placement(
             Affine3f(AngleAxisf(turn + tau * static_cast<float>(i) / static_cast<float>(sides),
                                 Vector3f::UnitY())) *
             Eigen::Translation3f(0, 0, -radius));
-        mesh.background_material(any_material(dice, 0.45f));
+        mesh.set_material(any_material(dice, 0.45f));
         mesh.rectangle({-half, 0, 0}, {2 * half, 0, 0}, {0, height, 0}, false, 4, 4);
         mesh.end_chunk();
     }
@@ -109,10 +109,10 @@ void add_slanted_boards(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& fre
         mesh.begin_chunk();
         const Vector3f size_m(dice.between(0.6f, 2.0f), dice.between(0.5f, 1.6f), 0.05f);
         const Vector3f at = free.place(dice, 0.5f * size_m.norm(), 5.5f);
-        mesh.background_placement(
+        mesh.set_placement(
             Affine3f(Eigen::Translation3f(at.x(), dice.between(0.4f, 2.2f), at.z())) *
             AngleAxisf(dice.between(-1.2f, 1.2f), any_direction(dice)));
-        mesh.background_material(any_material(dice, 0.8f));
+        mesh.set_material(any_material(dice, 0.8f));
         mesh.box({0, 0, 0}, size_m);
         mesh.end_chunk();
     }
@@ -126,7 +126,7 @@ void add_thing(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& free) {
     const float radius_m = thing == beam   ? std::abs(lean) + 0.2f
                            : thing == ring ? 1.25f * size
                                            : size;
-    mesh.background_placement(Affine3f(Eigen::Translation3f(free.place(dice, radius_m, 3.4f))) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(free.place(dice, radius_m, 3.4f))) *
                        AngleAxisf(turn, Vector3f::UnitY()));
     switch (thing) {
         case box:
@@ -150,7 +150,7 @@ void add_thing(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& free) {
 
 void add_wires(StageMeshBuilder& mesh, Dice& dice, const FreeFloor& free) {
     mesh.begin_chunk();
-    mesh.background_material(matte(static_cast<int>(StageTexture::metal), any_tint(dice), 1.0f));
+    mesh.set_material(matte(static_cast<int>(StageTexture::metal), any_tint(dice), 1.0f));
     const int wires = 4 + dice.below(6);
     for (int i = 0; i < wires; ++i) {
         const Vector3f half_lean(dice.between(-0.35f, 0.35f), 0, dice.between(-0.35f, 0.35f));
@@ -231,7 +231,7 @@ StageScene make_random_background(std::uint64_t seed) {
                 material.gloss = dice.between(0.3f, 1.0f);
                 material.mirror = dice.chance(0.3f) ? 0.8f : 0.15f;
             }
-            scene.mesh.background_material(material);
+            scene.mesh.set_material(material);
             add_thing(scene.mesh, dice, free);
         }
         scene.mesh.end_chunk();

@@ -70,8 +70,8 @@ class StageMeshBuilder {
     void begin_chunk(const ChunkKind& kind = {});
     void end_chunk();
 
-    void background_material(const StageMaterial& material) { material_ = material; }
-    void background_placement(const Eigen::Affine3f& world_from_local) { placement_ = world_from_local; }
+    void set_material(const StageMaterial& material) { material_ = material; }
+    void set_placement(const Eigen::Affine3f& world_from_local) { placement_ = world_from_local; }
     void set_bone(int bone) { bone_ = bone; }
 
     /// (columns + 1) x (rows + 1) points over (s, t) in [0, 1] x [0, 1]. Triangles face the side

@@ -32,7 +32,7 @@ void add_sky(StageMeshBuilder& mesh, const Eigen::Vector3f& tint) {
     StageMaterial material = matte(0, tint, 0.2f);
     material.glow = 0.5f;
     mesh.begin_chunk(far_scenery);
-    mesh.background_material(material);
+    mesh.set_material(material);
     constexpr float pi = std::numbers::pi_v<float>;
     mesh.patch(32, 16, [&](float s, float t) {
         const float azimuth = 2 * pi * s, polar = pi * t;

@@ -33,22 +33,22 @@ Affine3f facing_middle(float azimuth, float radius_m) {
 
 void add_floor(StageMeshBuilder& mesh) {
     mesh.begin_chunk({.casts_shadow = false});
-    mesh.background_material(of(StageTexture::poster_logo, {1, 1, 1}));
+    mesh.set_material(of(StageTexture::poster_logo, {1, 1, 1}));
     mesh.ring({0, 0, 0}, 0.0f, 0.85f, 64, 3, true);
-    mesh.background_material(of(StageTexture::carpet, {1, 1, 1}, 0.55f));
+    mesh.set_material(of(StageTexture::carpet, {1, 1, 1}, 0.55f));
     mesh.ring({0, 0, 0}, 0.85f, 2.1f, 64, 4);
     mesh.end_chunk();
     mesh.begin_chunk({.casts_shadow = false, .glossy = true});
     StageMaterial polished = of(StageTexture::tiles, {0.62f, 0.66f, 0.72f}, 0.45f);
     polished.gloss = 0.5f;
     polished.mirror = 0.22f;
-    mesh.background_material(polished);
+    mesh.set_material(polished);
     mesh.ring({0, 0, 0}, 2.1f, 2.75f, 64, 3);
     mesh.end_chunk();
     // In quarters, so that those out of the picture are not drawn.
     for (int quarter = 0; quarter < 4; ++quarter) {
         mesh.begin_chunk({.casts_shadow = false});
-        mesh.background_material(of(StageTexture::wood, {1, 1, 1}, 0.5f));
+        mesh.set_material(of(StageTexture::wood, {1, 1, 1}, 0.5f));
         mesh.patch(16, 9, [&](float s, float t) {
             const float azimuth = 0.25f * tau * (static_cast<float>(quarter) + s);
             const float radius = 2.75f + t * (wall_radius_m + 0.4f - 2.75f);
@@ -61,14 +61,14 @@ void add_floor(StageMeshBuilder& mesh) {
 
 void add_framed_poster(StageMeshBuilder& mesh, StageTexture poster, float width_m, float middle_m) {
     const float h = 0.5f * width_m;
-    mesh.background_material(of(StageTexture::metal, {0.35f, 0.35f, 0.40f}, 1.0f));
+    mesh.set_material(of(StageTexture::metal, {0.35f, 0.35f, 0.40f}, 1.0f));
     mesh.box({0, middle_m - h - 0.04f, 0.06f}, {width_m + 0.16f, 0.08f, 0.12f});
     mesh.box({0, middle_m + h + 0.04f, 0.06f}, {width_m + 0.16f, 0.08f, 0.12f});
     mesh.box({-h - 0.04f, middle_m, 0.06f}, {0.08f, width_m, 0.12f});
     mesh.box({h + 0.04f, middle_m, 0.06f}, {0.08f, width_m, 0.12f});
     StageMaterial picture = of(poster, {1, 1, 1});
     picture.glow = 0.35f;
-    mesh.background_material(picture);
+    mesh.set_material(picture);
     mesh.rectangle({-h, middle_m - h, 0.05f}, {width_m, 0, 0}, {0, width_m, 0}, true);
 }
 
@@ -91,16 +91,16 @@ void add_wall_panel(StageMeshBuilder& mesh, int index) {
                                         {StageTexture::plaster, {0.58f, 0.40f, 0.66f}, 0.45f}}};
     const Look& look = looks[static_cast<std::size_t>(index) % looks.size()];
     mesh.begin_chunk(far_scenery);
-    mesh.background_placement(facing_middle(azimuth, wall_radius_m));
+    mesh.set_placement(facing_middle(azimuth, wall_radius_m));
     StageMaterial wall = of(look.texture, look.tint, look.per_m);
     wall.glow = 0.10f;
-    mesh.background_material(wall);
+    mesh.set_material(wall);
     mesh.rectangle({-h, 0, 0}, {width, 0, 0}, {0, wall_height_m, 0}, false, 2, 4);
-    mesh.background_material(of(StageTexture::metal, {0.30f, 0.31f, 0.36f}, 0.8f));
+    mesh.set_material(of(StageTexture::metal, {0.30f, 0.31f, 0.36f}, 0.8f));
     mesh.box({0, 0.09f, 0.03f}, {width, 0.18f, 0.06f});
     mesh.rectangle({-h, wall_height_m, 0}, {width, 0, 0}, {0, ceiling_m - wall_height_m, 0});
     const Vector3f amber(1.0f, 0.78f, 0.46f), cyan(0.45f, 0.88f, 1.0f);
-    mesh.background_material(glowing(index % 2 ? amber : cyan, 0.9f));
+    mesh.set_material(glowing(index % 2 ? amber : cyan, 0.9f));
     mesh.box({0, wall_height_m, 0.05f}, {width, 0.10f, 0.10f});
 
     switch (index % 4) {
@@ -114,7 +114,7 @@ void add_wall_panel(StageMeshBuilder& mesh, int index) {
             break;
         case 3:
             // Upright slats before the wall.
-            mesh.background_material(of(StageTexture::wood, {0.92f, 0.74f, 0.55f}, 0.7f));
+            mesh.set_material(of(StageTexture::wood, {0.92f, 0.74f, 0.55f}, 0.7f));
             for (int slat = -4; slat <= 4; ++slat)
                 mesh.box({0.27f * static_cast<float>(slat), 1.9f, 0.22f}, {0.07f, 3.4f, 0.10f});
             break;
@@ -122,12 +122,12 @@ void add_wall_panel(StageMeshBuilder& mesh, int index) {
             // A shelf of boxes.
             for (int shelf = 0; shelf < 3; ++shelf) {
                 const float y = 0.9f + 0.75f * static_cast<float>(shelf);
-                mesh.background_material(of(StageTexture::wood, {0.75f, 0.62f, 0.55f}, 0.8f));
+                mesh.set_material(of(StageTexture::wood, {0.75f, 0.62f, 0.55f}, 0.8f));
                 mesh.box({0, y, 0.18f}, {2.2f, 0.05f, 0.36f});
                 for (int i = 0; i < 6; ++i) {
                     const int kind = (index + 5 * shelf + 3 * i) % 7;
                     const float size = 0.16f + 0.035f * static_cast<float>(kind);
-                    mesh.background_material(
+                    mesh.set_material(
                         of(std::array{StageTexture::plaid, StageTexture::flowers,
                                       StageTexture::stripes, StageTexture::checker,
                                       StageTexture::speckle, StageTexture::carpet,
@@ -152,11 +152,11 @@ void add_columns(StageMeshBuilder& mesh) {
         constexpr int columns = panels / 4;
         for (int i = 0; i < columns; ++i) {
             const float azimuth = tau * static_cast<float>(quarter * columns + i) / panels;
-            mesh.background_placement(facing_middle(azimuth, radius));
-            mesh.background_material(of(StageTexture::plaster, {0.90f, 0.88f, 0.84f}, 0.8f));
+            mesh.set_placement(facing_middle(azimuth, radius));
+            mesh.set_material(of(StageTexture::plaster, {0.90f, 0.88f, 0.84f}, 0.8f));
             mesh.rod({0, 0, 0}, {0, wall_height_m + 0.3f, 0}, 0.17f, 0.15f, 16, false);
             mesh.rod({0, 0, 0}, {0, 0.30f, 0}, 0.25f, 0.21f, 16);
-            mesh.background_material(glowing({1.0f, 0.86f, 0.62f}, 0.9f));
+            mesh.set_material(glowing({1.0f, 0.86f, 0.62f}, 0.9f));
             mesh.rod({-0.24f, 0.4f, 0.02f}, {-0.24f, 4.2f, 0.02f}, 0.018f, 0.018f, 6);
             mesh.rod({0.24f, 0.4f, 0.02f}, {0.24f, 4.2f, 0.02f}, 0.018f, 0.018f, 6);
         }
@@ -168,9 +168,9 @@ void add_ceiling(StageMeshBuilder& mesh) {
     mesh.begin_chunk(far_scenery);
     StageMaterial ceiling = of(StageTexture::speckle, {0.30f, 0.36f, 0.52f}, 0.3f);
     ceiling.glow = 0.12f;
-    mesh.background_material(ceiling);
+    mesh.set_material(ceiling);
     // Upside down: it faces the floor.
-    mesh.background_placement(Affine3f(Eigen::Translation3f(0, ceiling_m, 0)) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(0, ceiling_m, 0)) *
                        AngleAxisf(0.5f * tau, Vector3f::UnitX()));
     mesh.ring({0, 0, 0}, 0.0f, wall_radius_m + 0.4f, 48, 6);
     mesh.end_chunk();
@@ -185,17 +185,17 @@ void add_lighting_grid(StageMeshBuilder& mesh) {
     };
     for (int i = 0; i < segments; ++i) {
         mesh.begin_chunk(far_scenery);
-        mesh.background_material(of(StageTexture::metal, {0.80f, 0.82f, 0.86f}, 1.0f));
+        mesh.set_material(of(StageTexture::metal, {0.80f, 0.82f, 0.86f}, 1.0f));
         mesh.truss(corner(i), corner(i + 1), 0.30f, 0.022f, 8);
         const Vector3f at = corner(i);
         mesh.rod(at, {at.x(), ceiling_m, at.z()}, 0.010f, 0.010f, 5, false);
         // A lamp: housing, lens, and the cable it hangs on.
         const Vector3f aim = (Vector3f(0, 1, 0) - at).normalized();
         const Vector3f lamp = at + Vector3f(0, -0.40f, 0);
-        mesh.background_material(of(StageTexture::metal, {0.26f, 0.27f, 0.30f}, 1.5f));
+        mesh.set_material(of(StageTexture::metal, {0.26f, 0.27f, 0.30f}, 1.5f));
         mesh.rod(at, lamp, 0.014f, 0.014f, 6, false);
         mesh.rod(lamp - 0.16f * aim, lamp + 0.14f * aim, 0.09f, 0.14f, 14);
-        mesh.background_material(
+        mesh.set_material(
             glowing(i % 2 ? Vector3f(1.0f, 0.93f, 0.78f) : Vector3f(0.80f, 0.92f, 1.0f), 1));
         mesh.rod(lamp + 0.14f * aim, lamp + 0.15f * aim, 0.12f, 0.12f, 14);
         mesh.end_chunk();
@@ -205,7 +205,7 @@ void add_lighting_grid(StageMeshBuilder& mesh) {
 void add_railing(StageMeshBuilder& mesh) {
     constexpr float radius = 3.0f;
     mesh.begin_chunk();
-    mesh.background_material(of(StageTexture::metal, {0.92f, 0.92f, 0.95f}, 1.0f));
+    mesh.set_material(of(StageTexture::metal, {0.92f, 0.92f, 0.95f}, 1.0f));
     constexpr int posts = 10;
     const auto at = [&](int i, float y) {
         const float azimuth = tau * (0.34f + 0.32f * static_cast<float>(i) / (posts - 1));
@@ -223,32 +223,32 @@ void add_railing(StageMeshBuilder& mesh) {
 
 void add_microphone_stand(StageMeshBuilder& mesh, float x, float z) {
     mesh.begin_chunk();
-    mesh.background_material(of(StageTexture::metal, {0.55f, 0.56f, 0.60f}, 1.0f));
+    mesh.set_material(of(StageTexture::metal, {0.55f, 0.56f, 0.60f}, 1.0f));
     const Vector3f foot(x, 0, z);
     mesh.rod(foot, foot + Vector3f(0, 0.025f, 0), 0.15f, 0.14f, 20);
     mesh.rod(foot + Vector3f(0, 0.025f, 0), foot + Vector3f(0, 1.36f, 0), 0.013f, 0.011f, 8);
     mesh.rod(foot + Vector3f(0, 1.36f, 0), foot + Vector3f(0, 1.47f, -0.10f), 0.017f, 0.022f, 10);
-    mesh.background_material(of(StageTexture::checker, {0.70f, 0.70f, 0.74f}, 6.0f));
+    mesh.set_material(of(StageTexture::checker, {0.70f, 0.70f, 0.74f}, 6.0f));
     mesh.ellipsoid(foot + Vector3f(0, 1.49f, -0.12f), {0.034f, 0.034f, 0.034f}, 14, 10);
     mesh.end_chunk();
 }
 
 void add_desk(StageMeshBuilder& mesh) {
     mesh.begin_chunk();
-    mesh.background_placement(facing_middle(0.62f * tau, 3.9f));
-    mesh.background_material(of(StageTexture::wood, {0.96f, 0.90f, 0.86f}, 0.8f));
+    mesh.set_placement(facing_middle(0.62f * tau, 3.9f));
+    mesh.set_material(of(StageTexture::wood, {0.96f, 0.90f, 0.86f}, 0.8f));
     mesh.box({0, 0.40f, 0}, {2.1f, 0.72f, 0.60f});
-    mesh.background_material(of(StageTexture::plain, {0.93f, 0.93f, 0.95f}));
+    mesh.set_material(of(StageTexture::plain, {0.93f, 0.93f, 0.95f}));
     mesh.box({0, 0.785f, 0}, {2.3f, 0.05f, 0.78f});
-    mesh.background_material(of(StageTexture::metal, {0.4f, 0.4f, 0.45f}));
+    mesh.set_material(of(StageTexture::metal, {0.4f, 0.4f, 0.45f}));
     mesh.box({0, 0.02f, 0}, {2.0f, 0.04f, 0.5f});
-    mesh.background_material(of(StageTexture::poster_shapes, {1, 1, 1}));
+    mesh.set_material(of(StageTexture::poster_shapes, {1, 1, 1}));
     mesh.rectangle({-0.9f, 0.12f, 0.305f}, {1.8f, 0, 0}, {0, 0.56f, 0}, true);
-    mesh.background_material(of(StageTexture::flowers, {1, 1, 1}, 3.0f));
+    mesh.set_material(of(StageTexture::flowers, {1, 1, 1}, 3.0f));
     mesh.rod({-0.7f, 0.81f, 0.1f}, {-0.7f, 0.93f, 0.1f}, 0.045f, 0.05f, 16);
-    mesh.background_material(of(StageTexture::plaid, {1, 1, 1}, 3.0f));
+    mesh.set_material(of(StageTexture::plaid, {1, 1, 1}, 3.0f));
     mesh.box({0.5f, 0.835f, 0.0f}, {0.34f, 0.05f, 0.26f});
-    mesh.background_material(of(StageTexture::stripes, {1, 1, 1}, 3.0f));
+    mesh.set_material(of(StageTexture::stripes, {1, 1, 1}, 3.0f));
     mesh.box({0.52f, 0.88f, 0.01f}, {0.30f, 0.04f, 0.22f});
     mesh.end_chunk();
 }
@@ -256,14 +256,14 @@ void add_desk(StageMeshBuilder& mesh) {
 void add_plant(StageMeshBuilder& mesh, float azimuth, float radius) {
     mesh.begin_chunk();
     const Affine3f placement = facing_middle(azimuth, radius);
-    mesh.background_placement(placement);
-    mesh.background_material(of(StageTexture::flowers, {0.95f, 0.80f, 0.70f}, 1.5f));
+    mesh.set_placement(placement);
+    mesh.set_material(of(StageTexture::flowers, {0.95f, 0.80f, 0.70f}, 1.5f));
     mesh.rod({0, 0, 0}, {0, 0.38f, 0}, 0.15f, 0.21f, 18);
-    mesh.background_material(of(StageTexture::speckle, {0.42f, 0.72f, 0.34f}, 1.5f));
+    mesh.set_material(of(StageTexture::speckle, {0.42f, 0.72f, 0.34f}, 1.5f));
     for (int leaf = 0; leaf < 22; ++leaf) {
         const float turn = 2.39996f * static_cast<float>(leaf);
         const float rise = 0.25f + 0.05f * static_cast<float>(leaf % 9);
-        mesh.background_placement(placement * Eigen::Translation3f(0, 0.34f, 0) *
+        mesh.set_placement(placement * Eigen::Translation3f(0, 0.34f, 0) *
                            AngleAxisf(turn, Vector3f::UnitY()) *
                            AngleAxisf(1.15f - rise * 1.6f, Vector3f::UnitX()));
         mesh.ellipsoid({0, 0.42f, 0}, {0.055f, 0.44f, 0.010f}, 6, 6);
@@ -274,16 +274,16 @@ void add_plant(StageMeshBuilder& mesh, float azimuth, float radius) {
 void add_balls_and_blocks(StageMeshBuilder& mesh) {
     mesh.begin_chunk();
     // Plain grey: nothing for a matcher to hold on to.
-    mesh.background_placement(Affine3f(Eigen::Translation3f(1.75f, 0, 1.05f)) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(1.75f, 0, 1.05f)) *
                        AngleAxisf(0.5f, Vector3f::UnitY()));
-    mesh.background_material(of(StageTexture::plain, {0.60f, 0.60f, 0.61f}));
+    mesh.set_material(of(StageTexture::plain, {0.60f, 0.60f, 0.61f}));
     mesh.box({0, 0.24f, 0}, {0.48f, 0.48f, 0.48f});
-    mesh.background_placement(Affine3f(Eigen::Translation3f(-1.85f, 0, 0.75f)) *
+    mesh.set_placement(Affine3f(Eigen::Translation3f(-1.85f, 0, 0.75f)) *
                        AngleAxisf(-0.4f, Vector3f::UnitY()));
-    mesh.background_material(of(StageTexture::checker, {1, 1, 1}, 1.4f));
+    mesh.set_material(of(StageTexture::checker, {1, 1, 1}, 1.4f));
     mesh.box({0, 0.36f, 0}, {0.42f, 0.72f, 0.42f});
-    mesh.background_placement(Affine3f(Eigen::Translation3f(1.95f, 0, -0.95f)));
-    mesh.background_material(of(StageTexture::plaster, {0.92f, 0.90f, 0.86f}, 1.0f));
+    mesh.set_placement(Affine3f(Eigen::Translation3f(1.95f, 0, -0.95f)));
+    mesh.set_material(of(StageTexture::plaster, {0.92f, 0.90f, 0.86f}, 1.0f));
     mesh.rod({0, 0, 0}, {0, 0.75f, 0}, 0.24f, 0.20f, 20);
     mesh.rod({0, 0.75f, 0}, {0, 0.80f, 0}, 0.27f, 0.27f, 20);
     mesh.end_chunk();
@@ -292,12 +292,12 @@ void add_balls_and_blocks(StageMeshBuilder& mesh) {
     StageMaterial mirror = of(StageTexture::plain, {0.90f, 0.92f, 0.95f});
     mirror.mirror = 0.85f;
     mirror.gloss = 1.0f;
-    mesh.background_material(mirror);
+    mesh.set_material(mirror);
     mesh.ellipsoid({1.95f, 1.06f, -0.95f}, {0.26f, 0.26f, 0.26f}, 24, 14);
     StageMaterial lacquer = of(StageTexture::plain, {0.86f, 0.20f, 0.16f});
     lacquer.mirror = 0.15f;
     lacquer.gloss = 0.9f;
-    mesh.background_material(lacquer);
+    mesh.set_material(lacquer);
     mesh.ellipsoid({-1.85f, 0.91f, 0.75f}, {0.19f, 0.19f, 0.19f}, 20, 12);
     mesh.end_chunk();
 }
@@ -305,15 +305,15 @@ void add_balls_and_blocks(StageMeshBuilder& mesh) {
 void add_speakers(StageMeshBuilder& mesh) {
     for (const float azimuth : {0.07f * tau, 0.30f * tau, 0.47f * tau, 0.71f * tau, 0.93f * tau}) {
         mesh.begin_chunk(far_scenery);
-        mesh.background_placement(facing_middle(azimuth, 6.3f));
-        mesh.background_material(of(StageTexture::speckle, {0.36f, 0.37f, 0.42f}, 1.0f));
+        mesh.set_placement(facing_middle(azimuth, 6.3f));
+        mesh.set_material(of(StageTexture::speckle, {0.36f, 0.37f, 0.42f}, 1.0f));
         mesh.box({0, 0.75f, 0}, {0.62f, 1.5f, 0.55f});
         mesh.box({0.03f, 1.85f, 0}, {0.50f, 0.68f, 0.45f});
         for (const float y : {0.42f, 1.05f, 1.85f}) {
-            mesh.background_material(of(StageTexture::metal, {0.60f, 0.60f, 0.64f}, 3.0f));
+            mesh.set_material(of(StageTexture::metal, {0.60f, 0.60f, 0.64f}, 3.0f));
             const float z = y > 1.5f ? 0.225f : 0.275f;
             mesh.rod({0, y, z}, {0, y, z + 0.03f}, 0.22f, 0.21f, 20);
-            mesh.background_material(of(StageTexture::checker, {0.5f, 0.5f, 0.56f}, 4.0f));
+            mesh.set_material(of(StageTexture::checker, {0.5f, 0.5f, 0.56f}, 4.0f));
             mesh.rod({0, y, z + 0.03f}, {0, y, z + 0.05f}, 0.16f, 0.10f, 20);
         }
         mesh.end_chunk();
@@ -324,9 +324,9 @@ void add_risers(StageMeshBuilder& mesh) {
     // Steps along a part of the wall: slanted and stepped depths.
     for (const float azimuth : {0.16f * tau, 0.56f * tau, 0.84f * tau}) {
         mesh.begin_chunk(far_scenery);
-        mesh.background_placement(facing_middle(azimuth, 6.4f));
+        mesh.set_placement(facing_middle(azimuth, 6.4f));
         for (int step = 0; step < 3; ++step) {
-            mesh.background_material(of(step % 2 ? StageTexture::carpet : StageTexture::stripes,
+            mesh.set_material(of(step % 2 ? StageTexture::carpet : StageTexture::stripes,
                                  {0.9f, 0.9f, 0.95f}, 0.6f));
             const float rise = 0.22f * static_cast<float>(step + 1);
             mesh.box({0, 0.5f * rise, -0.35f * static_cast<float>(step)}, {1.9f, rise, 0.35f});

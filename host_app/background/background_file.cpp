@@ -91,8 +91,8 @@ std::vector<std::byte> encode_frame_set(const Background& set) {
         to.set_height_px(static_cast<std::uint32_t>(rig.colour.rows));
         to.set_depth_width_px(static_cast<std::uint32_t>(rig.depth_m.cols));
         to.set_depth_height_px(static_cast<std::uint32_t>(rig.depth_m.rows));
-        to.background_colour(text_of(colours.encode(rig.colour)));
-        to.background_depth(text_of(zstd.compress(bytes_of(rig.depth_m))));
+        to.set_colour(text_of(colours.encode(rig.colour)));
+        to.set_depth(text_of(zstd.compress(bytes_of(rig.depth_m))));
         to.set_certainty(text_of(zstd.compress(bytes_of(rig.certainty))));
     }
     const std::string text = std::string(first_line) + message.SerializeAsString();

@@ -52,10 +52,10 @@ class Rendering {
                 if (!view.depth_m.empty()) overlay_.name_rigs({view.name});
         }
         for (const ViewSet& instant : earlier) {
-            synthesiser_->background_views(instant.views);
+            synthesiser_->set_views(instant.views);
             synthesiser_->render(target);
         }
-        synthesiser_->background_views(set.views);
+        synthesiser_->set_views(set.views);
     }
 
     const std::optional<Stereoscopy>& stereoscopy() const { return settled_; }

@@ -63,7 +63,7 @@ void StagedPreparer::warm_up(std::span<const DepthView> views, const VirtualView
     // A set that is matched is bettered in another way.
     for (RigHistory* rig : uploaded_) {
         const DepthImage none(rig->depth().size(), 0.0f);
-        rig->background_match(none, none, ColourImage(none.size()));
+        rig->set_background_match(none, none, ColourImage(none.size()));
     }
     improve(target);
     level_ = prepare_levels().front();
@@ -220,12 +220,12 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
         RigHistory* rig = matched->rigs[i];
         if (!rigs_.has_learnt(rig) || rig->depth().size() != matched->depth_sizes[i]) continue;
         if (cv::countNonZero(depths_m[i]) == 0) continue;  // no other rig stands far enough from it
-        rig->background_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
+        rig->set_background_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
         if (!rig->model()) continue;
         // As soon as there is time.
         RigHistory::Model model = *rig->model();
         model.rest_s = 0;
-        rig->background_model(model);
+        rig->set_background_model(model);
     }
 }
 
@@ -255,7 +255,7 @@ std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory&
         model->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
         inpainting_.close(*depth_m, *measured_m, colour, model->depth_target());
         made.surface = model;
-        rig.background_model(made);
+        rig.set_background_model(made);
     });
     return steps;
 }

@@ -110,14 +110,14 @@ class LightFieldRenderer final : public ViewRenderer {
         FullscreenPass& pass = add_[count - 1];
         Program& program = pass.use();
         const Pose target_from_plane = view.world_from_camera.inverse() * plane.world_from_plane;
-        const auto background_plane = [&](const char* name, double ahead_m) {
+        const auto set_plane = [&](const char* name, double ahead_m) {
             const Eigen::Vector3d normal = target_from_plane.linear().col(2);
             const Eigen::Vector3d on = target_from_plane * Eigen::Vector3d(0, 0, ahead_m);
             program.set(name, Eigen::Vector4f(normal.cast<float>().homogeneous().cwiseProduct(
                                   Eigen::Vector4f(1, 1, 1, static_cast<float>(normal.dot(on))))));
         };
-        background_plane("camera_plane", 0);
-        background_plane("focal_plane", focal);
+        set_plane("camera_plane", 0);
+        set_plane("focal_plane", focal);
         program.set("camera_x", Eigen::Vector3f(target_from_plane.linear().col(0).cast<float>()));
         program.set("camera_y", Eigen::Vector3f(target_from_plane.linear().col(1).cast<float>()));
         program.set("camera_middle",

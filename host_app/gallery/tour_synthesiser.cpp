@@ -123,21 +123,21 @@ class TourRenderer final : public ViewRenderer {
         const Layout layout = layout_of(rig);
         Program& program = draw_.use();
         const Pose target_from_world = view.world_from_camera.inverse();
-        const auto background_plane = [&](const std::string& name, const Eigen::Vector3d& normal,
+        const auto set_plane = [&](const std::string& name, const Eigen::Vector3d& normal,
                                    double distance_m) {
             Eigen::Vector4d plane;
             plane << target_from_world.linear() * normal,
                 distance_m - normal.dot(view.world_from_camera.translation());
             program.set(name, Eigen::Vector4f(plane.cast<float>()));
         };
-        background_plane("floor_plane", layout.up, layout.floor_m);
-        background_plane("back_plane", layout.ahead, layout.back_m);
+        set_plane("floor_plane", layout.up, layout.floor_m);
+        set_plane("back_plane", layout.ahead, layout.back_m);
         const std::vector<CutOut>& parts = tour.rigs[number].cut_outs;
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const Eigen::Vector3d foot = stands_at(camera, parts[i].foot_px, layout);
             Eigen::Vector3d facing = foot - camera.world_from_camera.translation();
             facing = (facing - facing.dot(layout.up) * layout.up).normalized();
-            background_plane(fmt::format("billboards[{}]", i), facing, facing.dot(foot));
+            set_plane(fmt::format("billboards[{}]", i), facing, facing.dot(foot));
         }
         program.set("cut_outs", static_cast<int>(parts.size()));
         program.set("pixel_from_target",

@@ -198,7 +198,7 @@ void MultiViewRefinement::sweep(const Look& look, double relative_step) {
     bind_view(refine, half_.texture(), view);
     refine.set("relative_step", static_cast<float>(relative_step));
     for (int i = 0; i < 4; ++i) {
-        refine.set(fmt::format("unlike[{}]", i), 2 + i);
+        refine.set(fmt::format("costs[{}]", i), 2 + i);
         costs_->cost[static_cast<std::size_t>(i)].bind(2 + i);
     }
     draw(refine_, refined, 6, look);

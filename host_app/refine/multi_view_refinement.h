@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/gl/tile_pass.h"
-#include "host_app/pipeline/instant_preparer.h"
+#include "host_app/surfaces/instant.h"
 #include "host_app/surfaces/drawn_texture.h"
 #include "host_app/surfaces/rig_history.h"
 

@@ -49,7 +49,7 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     samples_ = surface_samples(view);
 }
 
-void RigHistory::background_match(const DepthImage& depth_m, const DepthImage& learnt_m,
+void RigHistory::set_background_match(const DepthImage& depth_m, const DepthImage& learnt_m,
                            const ColourImage& colour) {
     const auto texture = [](TextureFormat format, const cv::Mat& image) {
         Texture filled(format, image.cols, image.rows);

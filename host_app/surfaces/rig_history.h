@@ -80,7 +80,7 @@ class RigHistory {
         int made = 0;       ///< learnt_instants() by then
     };
     const std::optional<Model>& model() const { return model_; }
-    void background_model(const Model& model) {
+    void set_background_model(const Model& model) {
         model_ = model;
         shape_made_s_.reset();
     }
@@ -100,7 +100,7 @@ class RigHistory {
     };
     const std::optional<Match>& match() const { return match_; }
     /// All of one size: the depth's, or a part of it.
-    void background_match(const DepthImage& depth_m, const DepthImage& learnt_m,
+    void set_background_match(const DepthImage& depth_m, const DepthImage& learnt_m,
                    const ColourImage& colour);
     /// The set's depth with what of the match still holds, to be drawn and read.
     DrawnTexture& matched_depth() { return matched_depth_; }

@@ -109,7 +109,7 @@ class Synthesiser {
         : preparer_(entry.make_preparer(library)), renderer_(entry.make_renderer(library)) {}
 
     /// Takes the next instant. Views may differ in size, lack depth, or be one or none.
-    void background_views(std::span<const DepthView> views, double dt_s = 1.0 / 30) {
+    void set_views(std::span<const DepthView> views, double dt_s = 1.0 / 30) {
         preparer_->take(views, dt_s);
     }
     void cut() { preparer_->cut(); }

@@ -5,7 +5,7 @@
 
 uniform sampler2D depth_map;  // metres, 0 = unknown
 uniform sampler2D picture;
-uniform sampler2D cost[4];  // of sixteen depths, from rig_sweep.frag
+uniform sampler2D costs[4];  // of sixteen depths, from rig_sweep.frag
 uniform float relative_step;  // of inverse depth, from one to the next
 uniform float edge_ratio;     // two depths whose ratio is larger lie on two surfaces
 
@@ -32,10 +32,10 @@ void main() {
             if (max(z, own) > min(z, own) * edge_ratio) continue;
             vec3 off = abs(textureLod(picture, (vec2(there) + 0.5) * texel, 0.0).rgb - colour);
             float w = exp(-dot(off, vec3(1.0 / 3.0)) / like_colour) + 1e-4;
-            a += w * texelFetch(cost[0], there, 0);
-            b += w * texelFetch(cost[1], there, 0);
-            c += w * texelFetch(cost[2], there, 0);
-            d += w * texelFetch(cost[3], there, 0);
+            a += w * texelFetch(costs[0], there, 0);
+            b += w * texelFetch(costs[1], there, 0);
+            c += w * texelFetch(costs[2], there, 0);
+            d += w * texelFetch(costs[3], there, 0);
             weights += w;
         }
     float cost[16] = float[16](a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w, c.x, c.y, c.z, c.w, d.x, d.y, d.z, d.w);

@@ -4,7 +4,7 @@
 uniform float relative_step;  // of inverse depth, from one to the next
 uniform float lod;
 
-layout(location = 0) out vec4 cost[4];
+layout(location = 0) out vec4 costs[4];
 
 const float same_place = 0.08;  // relative depth within which another rig may see the same point
 const float most = 0.15;        // mean colour difference (0..1) beyond which nothing is more unlike
@@ -29,7 +29,7 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 pixel = vec2(at);
     float own = texelFetch(depth_map, at, 0).r;
-    cost[0] = cost[1] = cost[2] = cost[3] = vec4(0.0);
+    costs[0] = costs[1] = costs[2] = costs[3] = vec4(0.0);
     if (own <= 0.0) return;
     bool seen[OTHERS], any_seen = false;
     vec3 along[OTHERS];  // the pixel's ray, as the other rig sees it
@@ -46,8 +46,8 @@ void main() {
         FOR_OTHERS(LOOK)
         cost[h] = sum.x / sum.y;
     }
-    cost[0] = vec4(cost[0], cost[1], cost[2], cost[3]);
-    cost[1] = vec4(cost[4], cost[5], cost[6], cost[7]);
-    cost[2] = vec4(cost[8], cost[9], cost[10], cost[11]);
-    cost[3] = vec4(cost[12], cost[13], cost[14], cost[15]);
+    costs[0] = vec4(cost[0], cost[1], cost[2], cost[3]);
+    costs[1] = vec4(cost[4], cost[5], cost[6], cost[7]);
+    costs[2] = vec4(cost[8], cost[9], cost[10], cost[11]);
+    costs[3] = vec4(cost[12], cost[13], cost[14], cost[15]);
 }

@@ -134,12 +134,12 @@ Result run_system(const std::string& name, const Case& one, const ShaderLibrary&
                   bool is_timed = false) {
     Synthesiser synthesiser(find_synthesiser(name), shaders);
     const double dt_s = std::chrono::duration<double>(between_instants).count();
-    for (const std::vector<DepthView>& views : one.before) synthesiser.background_views(views, dt_s);
+    for (const std::vector<DepthView>& views : one.before) synthesiser.set_views(views, dt_s);
     const VirtualView target{one.truth.colour.cols, one.truth.colour.rows, one.truth.K,
                              one.truth.world_from_camera};
     Result result;
     const auto whole = [&] {
-        synthesiser.background_views(one.views, dt_s);
+        synthesiser.set_views(one.views, dt_s);
         result.picture = synthesiser.render(target).download();
     };
     try {

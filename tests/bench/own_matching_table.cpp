@@ -43,7 +43,7 @@ std::string row(const ShaderLibrary& library, std::uint64_t set, double apart_de
         for (const bool own : {false, true}) {
             std::vector<DepthView> views;
             for (const auto& rig : rigs) views.push_back(rig->view(own));
-            synthesisers[own]->background_views(views);
+            synthesisers[own]->set_views(views);
             pictures[own] = synthesisers[own]->render(target).download();
         }
         if (instant < settled_after) continue;

@@ -168,14 +168,14 @@ class Bench {
         for (const std::size_t rigs : {1u, 2u, 4u, 8u}) {
             ones.push_back({std::span(all).first(rigs), make_synthesiser(name, shaders_)});
             const Timed& one = ones.back();
-            one.synthesiser->background_views(one.views);
+            one.synthesiser->set_views(one.views);
             one.synthesiser->render(target);
         }
         for (int i = 0; i < repeats; ++i)
             for (Timed& one : ones) {
                 one.render.run([&] { one.synthesiser->render(target); });
                 one.with_depth.run([&] {
-                    one.synthesiser->background_views(one.views);
+                    one.synthesiser->set_views(one.views);
                     one.synthesiser->render(target);
                 });
             }
@@ -195,7 +195,7 @@ class Bench {
     ColourImage picture(const SynthesiserEntry& entry, const std::vector<DepthView>& views,
                         const DepthView& truth) {
         Synthesiser synthesiser(entry, shaders_);
-        synthesiser.background_views(views);
+        synthesiser.set_views(views);
         return synthesiser.render(target_of(truth)).download();
     }
 

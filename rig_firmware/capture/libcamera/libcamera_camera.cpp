@@ -155,7 +155,7 @@ class Errand : public libcamera::Object {
 class LibcameraCamera final : public SensorCamera {
   public:
     LibcameraCamera(std::shared_ptr<libcamera::CameraManager> manager, const std::string& pattern,
-                    const RigConfig::Source& request, bool side_by_side)
+                    const RigConfig::Source& settings, bool side_by_side)
         : manager_(std::move(manager)),
           camera_(find_camera(*manager_, pattern)),
           devices_(*camera_),
@@ -164,8 +164,8 @@ class LibcameraCamera final : public SensorCamera {
             throw DeviceLost(fmt::format(
                 "camera '{}' is in use by another program: end that program", camera_->id()));
         try {
-            configure(request, side_by_side);
-            start(request);
+            configure(settings, side_by_side);
+            start(settings);
         } catch (...) {
             shut();
             throw;
@@ -207,16 +207,18 @@ class LibcameraCamera final : public SensorCamera {
     std::vector<std::string> report() const override { return report_; }
 
   private:
-    void configure(const RigConfig::Source& request, bool side_by_side) {
+    void configure(const RigConfig::Source& settings, bool side_by_side) {
         configuration_ = camera_->generateConfiguration({libcamera::StreamRole::VideoRecording});
         if (!configuration_ || configuration_->empty())
             fail("camera '{}' delivers no pictures", camera_->id());
         libcamera::StreamConfiguration& stream = configuration_->at(0);
-        const libcamera::Size size(static_cast<unsigned>(request.width_px * (side_by_side ? 2 : 1)),
-                                   static_cast<unsigned>(request.height_px));
+        const libcamera::Size size(
+            static_cast<unsigned>(settings.width_px * (side_by_side ? 2 : 1)),
+            static_cast<unsigned>(settings.height_px));
         const std::vector<libcamera::PixelFormat> offered = stream.formats().pixelformats();
         for (const KnownFormat& known : known_formats()) {
-            if (!request.pixel_format.empty() && parse_pixel_format(request.pixel_format) != known.ours)
+            if (!settings.pixel_format.empty() &&
+                parse_pixel_format(settings.pixel_format) != known.ours)
                 continue;
             if (std::find(offered.begin(), offered.end(), known.theirs) == offered.end()) continue;
             stream.pixelFormat = known.theirs;
@@ -238,10 +240,11 @@ class LibcameraCamera final : public SensorCamera {
                 listed += " " + each.toString();
         }
         fail("camera '{}' does not deliver {}x{} in {}; it has:{}", camera_->id(), size.width,
-             size.height, request.pixel_format.empty() ? "a known format" : request.pixel_format, listed);
+             size.height, settings.pixel_format.empty() ? "a known format" : settings.pixel_format,
+             listed);
     }
 
-    void start(const RigConfig::Source& request) {
+    void start(const RigConfig::Source& settings) {
         libcamera::Stream* stream = configuration_->at(0).stream();
         allocator_ = std::make_unique<libcamera::FrameBufferAllocator>(camera_);
         if (allocator_->allocate(stream) <= 0)
@@ -255,7 +258,7 @@ class LibcameraCamera final : public SensorCamera {
         }
         camera_->requestCompleted.connect(this, &LibcameraCamera::on_completed);
         camera_->disconnected.connect(this, &LibcameraCamera::on_disconnected);
-        libcamera::ControlList controls = fixed_controls(request);
+        libcamera::ControlList controls = fixed_controls(settings);
         if (camera_->start(&controls) != 0)
             throw DeviceLost(fmt::format("camera '{}' does not start", camera_->id()));
         started_ = true;
@@ -271,7 +274,7 @@ class LibcameraCamera final : public SensorCamera {
     }
 
     /// Exposure, gain and white balance as configured; what the camera has no control for is said.
-    libcamera::ControlList fixed_controls(const RigConfig::Source& request) {
+    libcamera::ControlList fixed_controls(const RigConfig::Source& settings) {
         namespace controls = libcamera::controls;
         libcamera::ControlList list(camera_->controls());
         std::string fixed, left_out;
@@ -281,18 +284,19 @@ class LibcameraCamera final : public SensorCamera {
             std::string& place = is_there ? fixed : left_out;
             place += (place.empty() ? "" : ", ") + text;
         };
-        const double period_us = 1e6 / PulseGrid(request.rate_hz).rate_hz();
+        const double period_us = 1e6 / PulseGrid(settings.rate_hz).rate_hz();
         const auto period = static_cast<std::int64_t>(std::llround(period_us));
         fix(controls::AeEnable, false, "automatic exposure off");
-        fix(controls::ExposureTime, static_cast<std::int32_t>(std::lround(request.exposure_us)),
-            fmt::format("exposure {:.0f} us", request.exposure_us));
-        fix(controls::AnalogueGain, static_cast<float>(request.analogue_gain),
-            fmt::format("gain {:.2f}", request.analogue_gain));
+        fix(controls::ExposureTime, static_cast<std::int32_t>(std::lround(settings.exposure_us)),
+            fmt::format("exposure {:.0f} us", settings.exposure_us));
+        fix(controls::AnalogueGain, static_cast<float>(settings.analogue_gain),
+            fmt::format("gain {:.2f}", settings.analogue_gain));
         fix(controls::AwbEnable, false, "automatic white balance off");
-        const std::array<float, 2> gains = {static_cast<float>(request.red_gain),
-                                            static_cast<float>(request.blue_gain)};
+        const std::array<float, 2> gains = {static_cast<float>(settings.red_gain),
+                                            static_cast<float>(settings.blue_gain)};
         fix(controls::ColourGains, libcamera::Span<const float, 2>(gains),
-            fmt::format("red gain {:.2f} and blue gain {:.2f}", request.red_gain, request.blue_gain));
+            fmt::format("red gain {:.2f} and blue gain {:.2f}", settings.red_gain,
+                        settings.blue_gain));
         const std::array<std::int64_t, 2> durations = {period, period};
         fix(controls::FrameDurationLimits, libcamera::Span<const std::int64_t, 2>(durations),
             fmt::format("period {} us", period));
@@ -453,8 +457,8 @@ std::shared_ptr<libcamera::CameraManager> start_camera_manager() {
 
 std::unique_ptr<SensorCamera> open_libcamera_camera(
     std::shared_ptr<libcamera::CameraManager> manager, const std::string& pattern,
-    const RigConfig::Source& request, bool side_by_side) {
-    return std::make_unique<LibcameraCamera>(std::move(manager), pattern, request, side_by_side);
+    const RigConfig::Source& settings, bool side_by_side) {
+    return std::make_unique<LibcameraCamera>(std::move(manager), pattern, settings, side_by_side);
 }
 
 }  // namespace vantage

@@ -91,7 +91,7 @@ TEST(StageMesh, ClosedShapesFaceOutwardAndEncloseTheirVolume) {
         StageMeshBuilder mesh;
         mesh.begin_chunk();
         // Off the origin and turned, so that a hole would show in the sum.
-        mesh.background_placement(Eigen::Translation3f(5, -3, 2) *
+        mesh.set_placement(Eigen::Translation3f(5, -3, 2) *
                            Eigen::Affine3f(Eigen::AngleAxisf(0.7f, Vector3f::UnitX())));
         add(mesh);
         mesh.end_chunk();

@@ -32,7 +32,7 @@ class BackgroundCompareTest : public testing::Test {
         view.depth_m = DepthImage(side_px, side_px, depth_m);
         const auto surface = std::make_shared<RigSurface>();
         surface->upload(view, corrector_, uploader_);
-        rig_.background_model({.surface = surface, .made = rig_.learnt_instants()});
+        rig_.set_background_model({.surface = surface, .made = rig_.learnt_instants()});
     }
     cv::Vec4b seen_at(int x, int y) const {
         return ColourImage(rig_.background_state().seen().download())(y, x);

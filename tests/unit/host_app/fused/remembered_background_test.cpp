@@ -27,7 +27,7 @@ DepthView film(double x_m, double square_x_m) {
 class RememberedBackgroundTest : public testing::Test {
   protected:
     void see(const DepthView& view, int instants = 1) {
-        for (int i = 0; i < instants; ++i) synthesiser_->background_views({&view, 1});
+        for (int i = 0; i < instants; ++i) synthesiser_->set_views({&view, 1});
     }
     ColourImage render() { return synthesiser_->render(target_).download(); }
 

@@ -35,7 +35,7 @@ TEST_P(SourceMapTest, GivesEveryPixelToTheRigsThatShowIt) {
     overlay_.name_rigs({"west", "east"});
     // Rays 0.2 m aside at 4 m: 2.5 px.
     const DepthView views[] = {wall("west", -0.2), wall("east", 0.2)};
-    synthesiser_->background_views(views);
+    synthesiser_->set_views(views);
     const Texture& plain = synthesiser_->render(target_);
     const PixelOrigins* origins = synthesiser_->origins();
     ASSERT_NE(origins, nullptr);
@@ -63,7 +63,7 @@ TEST_P(SourceMapTest, PaintsARigsOwnPixelsInItsColourAndHatchesWhatNoneHasSeen) 
     overlay_.name_rigs({"west", "east"});
     // Rays 1.5 m aside at 4 m: 19 px. Above row 14 none knows depth; fused guesses it at most.
     const DepthView views[] = {wall("east", 1.5, 14), wall("west", -1.5, 14)};
-    synthesiser_->background_views(views);
+    synthesiser_->set_views(views);
     const Texture& plain = synthesiser_->render(target_);
     const ColourImage picture = plain.download();
     const ColourImage overlaid = overlay_.lay(plain, *synthesiser_->origins()).download();
@@ -89,7 +89,7 @@ TEST_P(SourceMapTest, PaintsARigsOwnPixelsInItsColourAndHatchesWhatNoneHasSeen) 
 
 TEST_P(SourceMapTest, LeavesThePictureAsItIs) {
     const DepthView views[] = {wall("west", -0.2, 5), wall("east", 0.2, 20)};
-    synthesiser_->background_views(views);
+    synthesiser_->set_views(views);
     const ColourImage before = synthesiser_->render(target_).download();
     EXPECT_EQ(synthesiser_->origins(), nullptr);
     ASSERT_TRUE(synthesiser_->note_origins(true));

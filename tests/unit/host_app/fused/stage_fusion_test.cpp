@@ -79,7 +79,7 @@ class StageFusionTest : public testing::TestWithParam<Reached> {
 TEST_P(StageFusionTest, MeetsTheStageBetweenFourRigsWithExactDepth) {
     const DepthView views[] = {film(stage_, -45), film(stage_, -15), film(stage_, 15),
                                film(stage_, 45)};
-    synthesiser_->background_views(views);
+    synthesiser_->set_views(views);
     for (const double azimuth_deg : {0.0, -30.0, 30.0}) {
         const Score s =
             score(*synthesiser_, stage_, azimuth_deg,
@@ -92,7 +92,7 @@ TEST_P(StageFusionTest, MeetsTheStageBetweenFourRigsWithExactDepth) {
 
 TEST_P(StageFusionTest, MeetsTheStageBetweenTwoCloseRigs) {
     const DepthView views[] = {film(stage_, -4), film(stage_, 4)};
-    synthesiser_->background_views(views);
+    synthesiser_->set_views(views);
     const Score s = score(*synthesiser_, stage_, 0, std::string(GetParam().synthesiser) + "-close");
     EXPECT_GE(s.psnr_covered_db, GetParam().close_db);
     EXPECT_GE(s.ssim, GetParam().close_ssim);
@@ -114,7 +114,7 @@ TEST(FusedStage, IsWithinThirtyDecibelsBetweenRigsTwentyDegreesApart) {
     const auto synthesiser = make_synthesiser("fused", shaders);
     const DepthView views[] = {film(stage, -30, 640, 480), film(stage, -10, 640, 480),
                                film(stage, 10, 640, 480), film(stage, 30, 640, 480)};
-    synthesiser->background_views(views);
+    synthesiser->set_views(views);
     for (const double azimuth_deg : {0.0, -20.0, 20.0}) {
         const Score s = score(*synthesiser, stage, azimuth_deg,
                               "fused-close-arc-" + std::to_string(azimuth_deg), 640, 480);
@@ -138,7 +138,7 @@ double midway_psnr_db(VirtualStage& stage, const ShaderLibrary& shaders,
                       std::span<const DepthView> views, const std::string& name,
                       std::chrono::nanoseconds time = stage_time) {
     const auto synthesiser = make_synthesiser("fused", shaders);
-    synthesiser->background_views(views);
+    synthesiser->set_views(views);
     return score(*synthesiser, stage, 0, name, views[0].colour.cols, views[0].colour.rows, time)
         .psnr_db;
 }
@@ -206,7 +206,7 @@ std::map<std::string, double> errors_at_edges(std::initializer_list<const char*>
     std::map<std::string, double> errors;
     for (const char* name : names) {
         const auto synthesiser = make_synthesiser(name, shaders);
-        synthesiser->background_views(views);
+        synthesiser->set_views(views);
         const ColourImage picture = synthesiser->render(target).download();
         errors[name] = mean_error(picture, truth.colour,
                                   depth_edge_band(truth.depth_m, 5) & covered_mask(picture));
@@ -251,7 +251,7 @@ TEST(StageNoise, IsWeakerInTheFusedPictureThanInACameraOnAStillStage) {
                 z = static_cast<float>(f_baseline /
                                        (f_baseline / z + random.gaussian(disparity_noise_px)));
         }
-        synthesiser->background_views(views);
+        synthesiser->set_views(views);
         const ColourImage picture =
             synthesiser->render({width_px, height_px, truth.K, truth.world_from_camera}).download();
         ColourImage real = truth.colour.clone();
@@ -276,7 +276,7 @@ TEST(StageFades, LetARigThatDropsOutGoInSteps) {
     const VirtualView target{160, 120, left.K, camera_at(0, 160, 120).world_from_camera};
     const auto synthesiser = make_synthesiser("fused", shaders);
     const auto redness = [&](std::initializer_list<DepthView> views) {
-        synthesiser->background_views(views);
+        synthesiser->set_views(views);
         return cv::mean(synthesiser->render(target).download())[0];
     };
     const double both = redness({left, right});

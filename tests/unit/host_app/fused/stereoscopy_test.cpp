@@ -195,7 +195,7 @@ TEST(SideBySidePicture, ShowsThePointsOfTheStageWithTheirParallax) {
     const std::vector<VirtualView> eyes = eye_views(view, settled);
 
     const auto synthesiser = make_synthesiser("mesh", shaders);
-    synthesiser->background_views(views);
+    synthesiser->set_views(views);
     EyeMosaic both(shaders);
     both.begin({640, 240}, settled);
     for (std::size_t i = 0; i < 2; ++i) both.put(synthesiser->render(eyes[i]), i);

@@ -24,7 +24,7 @@ VirtualView target_of(const DepthView& view) {
 class SynthesiserTest : public testing::TestWithParam<std::string> {
   protected:
     ColourImage render(std::span<const DepthView> views, const VirtualView& target) {
-        synthesiser_->background_views(views);
+        synthesiser_->set_views(views);
         return synthesiser_->render(target).download();
     }
 
@@ -144,7 +144,7 @@ TEST_P(HeldOutViewTest, IsMetByTheOthers) {
     const EglContext context;
     const ShaderLibrary shaders;
     const auto synthesiser = make_synthesiser(GetParam().synthesiser, shaders);
-    synthesiser->background_views(set.views);
+    synthesiser->set_views(set.views);
     const ColourImage picture = synthesiser->render(target_of(truth)).download();
     EXPECT_GE(psnr_db(picture, truth.colour), GetParam().least_psnr_db);
 }
@@ -178,7 +178,7 @@ TEST_P(BesideOneRigTest, FusedIsNotBelowWarping) {
     const ShaderLibrary shaders;
     const auto psnr_of = [&](const char* name) {
         const auto synthesiser = make_synthesiser(name, shaders);
-        synthesiser->background_views({&rig, 1});
+        synthesiser->set_views({&rig, 1});
         return psnr_db(synthesiser->render(target_of(truth)).download(), truth.colour);
     };
     const double fused_db = psnr_of("fused");
@@ -201,7 +201,7 @@ TEST(FusedSynthesiser, IsNoWorseWithMoreRigsThanAPictureTakes) {
     ColourImage pictures[2];
     for (ColourImage& picture : pictures) {
         const auto synthesiser = make_synthesiser("fused", shaders);
-        synthesiser->background_views(views);
+        synthesiser->set_views(views);
         picture = synthesiser->render(target_of(truth)).download();
         views.push_back(wall_and_square(0.6, 121, 91));
     }
@@ -227,7 +227,7 @@ TEST(FusedSynthesiser, AsksOtherRigsOnlyWhereTheTwoMostUsefulOnesSeeNothing) {
     // The third sees more of the wall, but from aside.
     const DepthView views[] = {grey_wall({-0.1, 0, 0}, 180, 100), grey_wall({0.1, 0, 0}, 180, 100),
                                grey_wall({1, 0, 0}, 80, 200)};
-    synthesiser->background_views(views);
+    synthesiser->set_views(views);
     const ColourImage picture = synthesiser->render(target_of(grey_wall({}, 96, 0))).download();
     EXPECT_EQ(picture(45, 60)[0], 100);
     EXPECT_EQ(picture(45, 75)[0], 100);
@@ -241,7 +241,7 @@ TEST(FusedSynthesiser, AsksAllRigsThatAreAboutAsClose) {
     const auto synthesiser = make_synthesiser("fused", shaders);
     const DepthView views[] = {grey_wall({-0.2, 0, 0}, 96, 100), grey_wall({0.2, 0, 0}, 96, 100),
                                grey_wall({0, 0.21, 0}, 96, 200)};
-    synthesiser->background_views(views);
+    synthesiser->set_views(views);
     const ColourImage picture = synthesiser->render(target_of(grey_wall({}, 96, 0))).download();
     EXPECT_NEAR(picture(45, 60)[0], 132, 8);
 }
@@ -255,7 +255,7 @@ TEST(FusedSynthesiser, GuessesTheDepthOfWhatALikeColouredSurfaceSurrounds) {
     // The square's right third, and a stripe of the wall beside it.
     view.depth_m(cv::Rect(68, 15, 30, 60)).setTo(0);
     const auto synthesiser = make_synthesiser("fused", shaders);
-    synthesiser->background_views({&view, 1});
+    synthesiser->set_views({&view, 1});
     const ColourImage picture = synthesiser->render(target_of(truth)).download();
     int misplaced = 0;
     for (int v = 24; v < 67; ++v)
@@ -276,7 +276,7 @@ TEST(FusedSynthesiser, ShowsAPostOfOnePixel) {
     view.colour.col(post_px).setTo(cv::Scalar(0, 0, 0, 255));
     view.depth_m.col(post_px).setTo(2.0f);
     const auto synthesiser = make_synthesiser("fused", shaders);
-    synthesiser->background_views({&view, 1});
+    synthesiser->set_views({&view, 1});
     const ColourImage picture = synthesiser->render(target_of(view)).download();
     const cv::Scalar post = cv::mean(picture.col(post_px)),
                      beside = cv::mean(picture.col(post_px - 4));
@@ -309,7 +309,7 @@ TEST(FusedSynthesiser, IsAboutAsSharpAsACameraNearerThanTheRig) {
     const ShaderLibrary shaders;
     const DepthView far = striped_wall(5.6), near = striped_wall(4);
     const auto synthesiser = make_synthesiser("fused", shaders);
-    synthesiser->background_views({&far, 1});
+    synthesiser->set_views({&far, 1});
     const ColourImage picture = synthesiser->render(target_of(near)).download();
     const cv::Rect middle(30, 20, 61, 51);
     cv::Scalar mean, seen, wanted, blurred;

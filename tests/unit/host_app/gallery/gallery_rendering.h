@@ -17,7 +17,7 @@ class GalleryRendering : public testing::Test {
     ColourImage render(const std::string& name, std::span<const DepthView> views,
                        const VirtualView& target) {
         Synthesiser synthesiser(find_synthesiser(name), shaders_);
-        synthesiser.background_views(views);
+        synthesiser.set_views(views);
         return synthesiser.render(target).download();
     }
 

@@ -19,8 +19,8 @@ class HullTest : public testing::Test {
             empty.push_back(ball_and_wall(angle_deg, {97, 73}, false));
             full.push_back(ball_and_wall(angle_deg, {97, 73}, true));
         }
-        for (int i = 0; i < 8; ++i) synthesiser_->background_views(empty, 0.2);
-        synthesiser_->background_views(full, 0.2);
+        for (int i = 0; i < 8; ++i) synthesiser_->set_views(empty, 0.2);
+        synthesiser_->set_views(full, 0.2);
     }
 
     EglContext context_;
@@ -53,7 +53,7 @@ TEST_F(HullTest, IsLargerTheFewerRigsCutIt) {
 TEST_F(HullTest, SaysThatItKnowsNoSilhouettes) {
     const DepthView views[] = {ball_and_wall(-13, {61, 47}, true),
                                ball_and_wall(13, {61, 47}, true)};
-    synthesiser_->background_views(views);
+    synthesiser_->set_views(views);
     EXPECT_NE(thrown_sentence([&] {
                   synthesiser_->render(view_of_scene(views[0]));
               }).find("silhouettes of two rigs or more"),

@@ -28,8 +28,8 @@ class TourTest : public testing::Test {
         Synthesiser synthesiser(find_synthesiser(name), shaders_);
         const DepthView empty = seen_from({0, -0.6, -3}, false),
                         full = seen_from({0, -0.6, -3}, true);
-        for (int i = 0; i < 8; ++i) synthesiser.background_views({&empty, 1}, 0.2);
-        synthesiser.background_views({&full, 1}, 0.2);
+        for (int i = 0; i < 8; ++i) synthesiser.set_views({&empty, 1}, 0.2);
+        synthesiser.set_views({&full, 1}, 0.2);
         return synthesiser.render(view_of_scene(target)).download();
     }
 
