@@ -57,6 +57,7 @@ struct RigHealth {
     float calibration_row_rms_px = 0;       ///< row error after rectification, when it was made
     std::string program_version;            ///< of the daemon, "0.2.0"; empty: it does not say
     std::uint64_t refused_connections = 0;  ///< of strangers, at the rig and at relays on the way
+    std::string keeps;  ///< one line: what the rig keeps, and what it erased; empty: nothing
 
     bool operator==(const RigHealth&) const = default;
 };

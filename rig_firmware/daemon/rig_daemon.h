@@ -17,7 +17,8 @@ struct DaemonStatus {
     PublisherStatus publisher;  ///< its rig counters are the daemon's whole book
     std::vector<SourceCounter> source_counters;
     RigSync sync;
-    std::string keeps;       ///< of the rig's own take, one line; empty: it keeps none
+    std::string keeps;  ///< of the rig's own take, one line; empty: it keeps none
+    std::uint64_t kept_files_erased = 0;
     Percentiles capture_ms;  ///< exposure to delivered
     Percentiles rectify_ms;  ///< upload, rectify
     Percentiles match_ms;    ///< match, read back
