@@ -15,6 +15,7 @@
 #include "host_app/desk/panels/command_prompt.h"
 #include "host_app/desk/panels/shot_places.h"
 #include "host_app/desk/panels/wheel_panel.h"
+#include "host_app/desk/windows/key_caps.h"
 #include "host_app/desk/windows/key_guard.h"
 #include "host_app/desk/windows/rigs_window.h"
 #include "host_app/desk/windows/ui_renderer.h"
@@ -104,11 +105,14 @@ class OperatorWindow {
     static void on_maximised(GLFWwindow* window, int is_maximised);
     void take_held_keys(double dt_s);
     bool held(int key) const;
+    /// Of a letter or sign, wherever this keyboard has it.
+    bool held_cap(int letter) const;
     void seek_at_cursor();
     void take_tab(bool with_shift, bool with_control);
     void show_rigs(const DeskState& state);
 
     GlfwLibrary glfw_;
+    KeyCaps caps_;
     std::unique_ptr<GLFWwindow, WindowDeleter> window_;
     ShaderLibrary shaders_;
     std::optional<UiContext> ui_;
