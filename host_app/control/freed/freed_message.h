@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "host_app/flight/camera_state.h"
 #include "host_app/flight/pan_tilt_roll.h"
@@ -21,8 +22,16 @@ struct FreedCamera {
 
 constexpr std::size_t freed_bytes = 29;
 std::array<std::byte, freed_bytes> encode_freed(const FreedCamera& camera);
+/// A message as it was read; without a camera, what is wrong with it, for people.
+struct FreedReading {
+    std::optional<FreedCamera> camera;
+    std::string fault;
+};
+FreedReading read_freed(std::span<const std::byte> message);
 /// Nothing: it is no D1, or its checksum is another, or it looks to where there is no direction.
-std::optional<FreedCamera> decode_freed(std::span<const std::byte> message);
+inline std::optional<FreedCamera> decode_freed(std::span<const std::byte> message) {
+    return read_freed(message).camera;
+}
 
 /// As Vantage says a lens: zoom is the horizontal field of view in thousandths of a degree, focus
 /// millimetres.
