@@ -36,4 +36,12 @@ class MetricText {
     std::string text_, name_, kind_;
 };
 
+/// The same in Prometheus's own text format (0.0.4), which has no `# EOF`, and names families of
+/// counters and facts as it does their samples.
+std::string to_prometheus_text(std::string_view open_metrics);
+
+/// Whether an HTTP request with this Accept header is to be answered in Prometheus's own text
+/// format: it takes text/plain, and OpenMetrics less or not at all.
+bool prefers_prometheus_text(std::string_view accept);
+
 }  // namespace vantage
