@@ -57,9 +57,10 @@ std::string clock_step_text(const RigSync& sync) {
 }
 
 std::string tai_worry(const RigStatus& rig) {
-    if (rig.same_clock || rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
+    if (rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
     return fmt::format(
-        "its TAI is {} s from UTC and this computer's {} s: give both the same, or neither any",
+        "its TAI is {} s from UTC and this computer's {} s: set the offset at the end that has 0 "
+        "(ptp4l and phc2sys do, or chrony with leapsectz), or at neither",
         rig.sync.tai_offset_s, rig.own_tai_offset_s);
 }
 

@@ -12,6 +12,7 @@
 #include <zmq.hpp>
 
 #include "common/base/bounded_queue.h"
+#include "common/base/computer.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
@@ -42,10 +43,23 @@ constexpr std::size_t max_closed_sets = 4;
 /// (docs/results/scale.md).
 constexpr std::size_t rigs_a_network_thread = 8;
 
+/// Of ZeroMQ's sockets, their connections and what watches them; and of all else that a host opens.
+constexpr std::size_t descriptors_a_rig = 8, descriptors_of_a_host = 48;
+
+/// Before ZeroMQ is started, which aborts where it may open too few files.
+int network_threads(const StageConfig& stage) {
+    require_descriptors(descriptors_of_a_host + descriptors_a_rig * stage.rigs.size(),
+                        fmt::format("a stage of {} rigs", stage.rigs.size()));
+    return static_cast<int>(1 + stage.rigs.size() / rigs_a_network_thread);
+}
+
 /// A rig that is not connected is looked into so soon, and then so often.
 constexpr std::chrono::milliseconds first_probe_after{300};
 constexpr std::chrono::milliseconds probe_period{2000};
 constexpr std::chrono::milliseconds probe_limit{1000};
+
+/// What came so long before it was sent shows that two clocks differ, and no latency.
+constexpr std::chrono::nanoseconds clocks_differ = -std::chrono::seconds(1);
 
 /// Between lines about a rig's bad messages.
 constexpr std::chrono::seconds complaint_period{10};
@@ -114,7 +128,7 @@ struct StageReceiver::Impl {
     Impl(const StageConfig& stage, Purpose why, FrameTap frame_tap)
         : purpose(why),
           tap(std::move(frame_tap)),
-          context(static_cast<int>(1 + stage.rigs.size() / rigs_a_network_thread)),
+          context(network_threads(stage)),
           assembler(names_of(stage), assembler_options(stage)),
           starter(PulseGrid(stage.rate_hz)),
           closed_frame_sets(max_closed_sets) {
@@ -224,7 +238,7 @@ struct StageReceiver::Impl {
             log_warning("rig {} is not ready; it joins when it is", rigs[late]->name);
         if (!first || first_pulse != 0) return;
         first_pulse = *first;
-        log_info("the take's first pulse is {}", first_pulse);
+        log_info("the stage's first pulse is {}", first_pulse);
     }
 
     std::chrono::nanoseconds next_wait() {
@@ -310,8 +324,10 @@ struct StageReceiver::Impl {
         rig.session = frame->session;
         const std::lock_guard lock(mutex);
         rig.decode_ms.add(to_ms(end - start));
-        rig.network_ms.add(to_ms(delivery.arrival_tai - frame->published));
-        rig.latency_ms.add(to_ms(decoded - frame->exposure));
+        if (delivery.arrival_tai - frame->published > clocks_differ)
+            rig.network_ms.add(to_ms(delivery.arrival_tai - frame->published));
+        if (decoded - frame->exposure > clocks_differ)
+            rig.latency_ms.add(to_ms(decoded - frame->exposure));
         rig.status.rig_times = frame->times;
         ++rig.status.received;
         switch (assembler.add(number, std::move(frame), delivery.arrival)) {
@@ -369,6 +385,7 @@ struct StageReceiver::Impl {
         status.outage_s = std::chrono::duration<double>(rig.outages.length(now)).count();
         status.restarts = view.restarts;
         const std::string rate_before = rate_worry(status);
+        const bool had_tai_worry = status.connected && !tai_worry(status).empty();
         if (goes_on && view.sync.clock_steps > status.sync.clock_steps)
             log_warning(
                 "rig {}: {}; what it films now is so far off the other rigs' pictures, or was "
@@ -384,6 +401,11 @@ struct StageReceiver::Impl {
         status.sync = std::move(view.sync);
         status.own_tai_offset_s = read_kernel_clock().tai_offset_s;
         status.health = std::move(view.health);
+        const std::string tai = status.connected ? tai_worry(status) : "";
+        if (warns && !had_tai_worry && !tai.empty())
+            log_warning(
+                "rig {}: {}; until then latencies are unknown and its frames may meet no set",
+                rig.name, tai);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
         if (const std::string rate = rate_worry(status);
             warns && rate != rate_before && !rate.empty())

@@ -55,7 +55,8 @@ Programme::Programme(Settings settings, InstantThread& instants, CameraSource& c
       camera_source_(camera_source),
       governor_(settings_.rate_hz, settings_.pulse_rate_hz, settings_.quality),
       replay_(settings_.replay),
-      preview_(settings_.format, settings_.rate_hz, instants_.contexts(), instants_.render_priority()),
+      preview_(settings_.format, settings_.rate_hz, instants_.contexts(),
+               instants_.render_priority()),
       reprojector_({settings_.format.width_px, settings_.format.height_px}),
       source_map_(settings_.source_map),
       picture_time_(most_for_pictures, longest_carried, MonotonicClock::now()) {
@@ -446,8 +447,10 @@ void Programme::note(const MadePicture& made, MonotonicTime now) {
     if (instant.is_live && instant.exposure && instant.set->trigger_index != latency_of_) {
         latency_of_ = instant.set->trigger_index;
         const double latency_ms = to_ms(TaiClock::now() - *instant.exposure);
-        latency_ms_.add(latency_ms);
-        state_.latency_ms = latency_ms;
+        // Far before its exposure it cannot have been shown: the clocks of rig and host differ.
+        constexpr double clocks_differ_ms = -1000;
+        if (latency_ms > clocks_differ_ms) latency_ms_.add(latency_ms);
+        state_.latency_ms = std::max(latency_ms, 0.0);
     }
 }
 
@@ -499,7 +502,7 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
         if (!handed_) return;
         if (carried || is_new)
             operator_input_.showed(handed_->job.look,
-                          carried ? carried->rendered->job.look : shown_->job.look, now);
+                                   carried ? carried->rendered->job.look : shown_->job.look, now);
         if (carried)
             reprojected_way_.add(
                 Reprojection::way(carried->rendered->job.camera, carried->job.camera));
