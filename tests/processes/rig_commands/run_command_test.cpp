@@ -165,8 +165,8 @@ TEST_F(RunCommandTest, RefusesPicturesThatCannotBe) {
 TEST_F(RunCommandTest, NamesThePictureThatIsDamagedOnTheWay) {
     for (int i = 0; i < 3; ++i) write_picture(fmt::format("b{}.png", i), {122, 47});
     std::ofstream(at("b1.png")) << "no picture";
-    const ProgramResult result =
-        run(replaced(small_stage, "\"virtual\"", "\"files\"\nleft = \"b%d.png\""));
+    const ProgramResult result = run(
+        replaced(small_stage, "\"virtual\"", "\"files\"\nleft = \"b%d.png\"\nside_by_side = true"));
     EXPECT_EQ(result.status, 1);
     EXPECT_NE(result.err.find("b1.png"), std::string::npos) << result.err;
 }
