@@ -120,7 +120,7 @@ ChosenPair choose_pair(const std::vector<FormCamera>& cameras, const ImportSetti
     return {*left, *right, pose};
 }
 
-/// Brings the pose into metres, and says how that was found out.
+/// Converts the pose to metres and reports where the scale came from.
 void set_scale(Pose& pose, const FormCalibration& read, const ImportSettings& settings,
                ImportedCalibration& result) {
     const double length = pose.translation().norm();

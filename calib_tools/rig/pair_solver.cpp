@@ -48,7 +48,7 @@ double predicted_rms_px(const CameraModel& from, const BoardCorners& seen_from,
     return best;
 }
 
-/// What the camera would have seen standing on its head.
+/// The corners as a camera that is rotated by 180 degrees would see them.
 BoardCorners of_half_turned_picture(const BoardCorners& corners, const CameraModel& camera,
                                     bool numbered_anew) {
     BoardCorners turned = corners;

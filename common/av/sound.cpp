@@ -29,7 +29,7 @@ TaiTime time_of_sound(std::int64_t sample) {
 }
 
 std::int64_t SoundGrid::first_of(std::int64_t tick) const {
-    // Whole seconds of the fraction first, so that the result stays exact for years of ticks.
+    // Dividing first keeps the products within 64 bits, so that the result is exact for years.
     const std::int64_t whole = tick / rate_.pulses, rest = tick % rate_.pulses;
     return whole * rate_.seconds * rate + rest * rate_.seconds * rate / rate_.pulses;
 }

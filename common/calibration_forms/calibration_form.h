@@ -36,7 +36,7 @@ struct FormCamera {
     std::optional<Pose> camera_from_frame = {};
 };
 
-/// What a form's reader took from its files. The sentences are for people.
+/// A calibration as the reader of a form returns it, with sentences for people about it.
 struct FormCalibration {
     std::vector<FormCamera> cameras;
     double metres_per_unit = 1;   ///< by the form's definition
@@ -44,7 +44,7 @@ struct FormCalibration {
     std::vector<std::string> left_out, assumed;
 };
 
-/// What a file may leave open and a person states.
+/// Settings that a file may lack, so that the user gives them.
 struct FormSettings {
     std::optional<cv::Size> size_px = {};
     bool is_fisheye = false;  ///< where a file has four coefficients and does not state their model

@@ -16,7 +16,7 @@ class XmlParser {
   public:
     explicit XmlParser(std::string_view text) : text_(text) {}
 
-    /// What the outermost element holds, under its name.
+    /// Parses the content of the outermost element, under its name.
     Tree parse() {
         skip_prologue();
         Tree tree = Tree::object();

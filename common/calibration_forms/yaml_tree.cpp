@@ -168,7 +168,8 @@ class YamlParser {
     Tree parse() {
         if (lines_.empty()) fail("it is empty");
         Tree tree = block(lines_.front().indent, 0);
-        if (at_ < lines_.size()) damaged("this line is indented unlike those before it");
+        if (at_ < lines_.size())
+            damaged("the indentation of this line differs from the lines before it");
         return tree;
     }
 
@@ -212,7 +213,7 @@ class YamlParser {
             if (colon == std::string::npos) damaged("this is no 'key: value'");
             const std::string key = unquoted(trimmed(line.text.substr(0, colon)));
             std::string value = trimmed(line.text.substr(colon + 1));
-            // A tag or an anchor says nothing about the numbers.
+            // Tags and anchors do not change the values.
             while (!value.empty() && (value[0] == '!' || value[0] == '&')) {
                 const std::size_t end = value.find_first_of(" \t");
                 value = end == std::string::npos ? "" : trimmed(value.substr(end));
@@ -228,7 +229,7 @@ class YamlParser {
         }
         return map;
     }
-    /// What belongs to a key or an item that has nothing on its own line.
+    /// Parses the value of a key or an item whose value begins on the next line.
     Tree below(std::size_t indent, int depth, bool may_be_items_beside) {
         if (at_ >= lines_.size()) return nullptr;
         const YamlLine& line = lines_[at_];

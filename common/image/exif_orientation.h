@@ -10,7 +10,7 @@ namespace vantage {
 /// it states none or is damaged.
 int exif_orientation(std::span<const std::byte> tiff);
 
-/// What a viewer does with a picture of this orientation, such as "turned by 90 degrees clockwise".
+/// Describes how a viewer shows an image of this orientation: "turned by 90 degrees clockwise".
 std::string orientation_in_words(int orientation);
 
 }  // namespace vantage

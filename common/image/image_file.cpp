@@ -38,7 +38,7 @@ std::optional<Format> format_of(std::span<const std::byte> bytes) {
     return std::nullopt;
 }
 
-/// What a picture of a format that is not read is called; empty where nothing is known of it.
+/// The name of an image format that Vantage recognises but does not read; empty if unknown.
 std::string_view foreign_format(std::string_view text) {
     using namespace std::string_view_literals;
     if (text.starts_with("II*\0"sv) || text.starts_with("MM\0*"sv)) return "a TIFF";

@@ -28,7 +28,7 @@ struct HandleDeleter {
 };
 using Handle = std::unique_ptr<void, HandleDeleter>;
 
-/// What the library's callbacks note. It begins with the library's own part, as the library wants.
+/// The messages that libjpeg's callbacks collect. Its first member is libjpeg's own error manager.
 struct JpegMessages {
     jpeg_error_mgr manager{};
     std::jmp_buf on_error{};

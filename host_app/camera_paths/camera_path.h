@@ -17,7 +17,7 @@ struct CameraPath {
     std::vector<CameraState> cameras;
 };
 
-/// What a file may leave open.
+/// Settings that a camera file may lack.
 struct CameraPathSettings {
     double rate_hz = 25;           ///< of its cameras; of an animation: at which it is looked at
     cv::Size size_px{1920, 1080};  ///< where the file says none

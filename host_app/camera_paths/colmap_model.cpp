@@ -87,7 +87,7 @@ class ColmapImages {
         }
         return std::nullopt;
     }
-    /// What the header says ("# Number of images: 12, ..."), if it does.
+    /// The number of images in the header ("# Number of images: 12, ..."), if it is there.
     std::optional<std::size_t> stated_count() const { return stated_count_; }
 
   private:

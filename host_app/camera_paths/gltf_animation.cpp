@@ -210,7 +210,7 @@ class GltfCamera {
         return name.empty() ? fmt::format("{} {}", kind, number) : fmt::format("'{}'", name);
     }
 
-    /// What a channel moves, such as "translation 3"; empty for what does not move the camera.
+    /// The target of a channel, such as "translation 3"; empty if it does not move the camera.
     std::string moved_by(const Json& channel) const {
         const Json& target = channel.at("target");
         const auto path = target.at("path").get<std::string>();
