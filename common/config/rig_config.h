@@ -75,7 +75,8 @@ struct RigConfig {
     struct Match {
         std::string
             matcher;  ///< empty: the preset's default; "exact": the virtual stage's true depth
-        std::string preset = "balanced";
+        std::string preset = "balanced";  ///< fast | balanced | quality | auto: the best one that
+                                          ///< holds the source's rate with a margin of a third
         int disparities = 64;
         bool fill = true;
         bool steady = true;  ///< temporal denoising where nothing moves

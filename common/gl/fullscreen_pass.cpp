@@ -19,6 +19,11 @@ void FullscreenPass::draw(const Framebuffer& target) {
     draw_triangle(target);
 }
 
+void FullscreenPass::overwrite(const Framebuffer& target) {
+    target.discard_colours();
+    draw(target);
+}
+
 void FullscreenPass::draw_depth(const Framebuffer& target) {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);

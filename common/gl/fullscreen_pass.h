@@ -18,6 +18,9 @@ class FullscreenPass {
     Program& use();
     /// Draws with the program in use, without depth test, blending and culling.
     void draw(const Framebuffer& target);
+    /// Like draw(), with a shader that writes every pixel of the target. The old contents are
+    /// discarded first, so that GPUs that draw in tiles (a Raspberry Pi's) need not read them.
+    void overwrite(const Framebuffer& target);
     /// Draws with a shader that writes gl_FragDepth into the target's depth texture.
     void draw_depth(const Framebuffer& target);
     /// Draws only the pixels where `depth` passes `comparison` (GL_LESS, GL_GREATER, ...) with the

@@ -42,17 +42,17 @@ ShaderLibrary::ShaderLibrary(std::filesystem::path override_folder)
 }
 
 std::string ShaderLibrary::source(std::string_view file, const ShaderDefines& defines) const {
-    std::string out =
-        "#version 310 es\n"
-        "precision highp float;\n"
-        "precision highp int;\n"
-        "precision highp sampler2D;\n"
-        "precision highp usampler2D;\n"
-        "precision highp isampler2D;\n"
-        "precision highp sampler2DArray;\n"
-        "precision highp usampler2DArray;\n"
-        "precision highp image2D;\n"
-        "precision highp uimage2D;\n";
+    // The name is for tools that read sources in a driver's trace (tools/v3d).
+    std::string out = fmt::format("#version 310 es\n// shader {}\n", file) +
+                      "precision highp float;\n"
+                      "precision highp int;\n"
+                      "precision highp sampler2D;\n"
+                      "precision highp usampler2D;\n"
+                      "precision highp isampler2D;\n"
+                      "precision highp sampler2DArray;\n"
+                      "precision highp usampler2DArray;\n"
+                      "precision highp image2D;\n"
+                      "precision highp uimage2D;\n";
     for (const auto& [name, value] : defines) out += fmt::format("#define {} {}\n", name, value);
     out += "#line 1\n";
     expand(file, out, 0);
@@ -107,6 +107,21 @@ bool ShaderLibrary::poll() {
     override_files_ = std::move(files);
     ++generation_;
     return true;
+}
+
+void ShaderLibrary::note_made(std::string_view file) const {
+    ++observed_->made;
+    tell_observer(file);
+}
+
+void ShaderLibrary::note_used(std::string_view file) const {
+    ++observed_->used;
+    tell_observer(file);
+}
+
+void ShaderLibrary::tell_observer(std::string_view file) const {
+    if (observed_->observer)
+        observed_->observer({.made = observed_->made, .used = observed_->used, .file = file});
 }
 
 std::vector<std::string> ShaderLibrary::embedded_names() const {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +14,15 @@ namespace vantage {
 
 /// Preprocessor definitions written before a shader: {"LANES", "16"}.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
+
+/// How many programs of a ShaderLibrary have been linked and used. Drivers do most of the compiling
+/// at a program's first use, so `used` counts those that have been compiled or are being compiled.
+struct ProgramProgress {
+    int made = 0;           ///< programs that were linked
+    int used = 0;           ///< of them, those that were used at least once
+    std::string_view file;  ///< of the program that is being linked or compiled
+};
+using ProgramObserver = std::function<void(const ProgramProgress&)>;
 
 /// The shaders of shaders/, by file name without the folder ("stereo_luma.comp"), embedded at build
 /// time. If the environment variable VANTAGE_SHADERS names a folder, files in it or its subfolders
@@ -36,7 +47,20 @@ class ShaderLibrary {
 
     std::vector<std::string> embedded_names() const;
 
+    /// From now on `observer` is called before a program is linked and before its first use, on the
+    /// thread that does so. Null: nobody is told.
+    void observe_programs(ProgramObserver observer) { observed_->observer = std::move(observer); }
+    /// For Program: it is about to be linked, or used for the first time.
+    void note_made(std::string_view file) const;
+    void note_used(std::string_view file) const;
+
   private:
+    struct Observed {
+        std::atomic<int> made = 0, used = 0;
+        ProgramObserver observer;
+    };
+    void tell_observer(std::string_view file) const;
+
     std::string read(std::string_view file) const;
     void expand(std::string_view file, std::string& out, int depth) const;
 
@@ -44,6 +68,7 @@ class ShaderLibrary {
     std::map<std::filesystem::path, std::filesystem::file_time_type> seen_;
     std::map<std::string, std::filesystem::path, std::less<>> override_files_;  ///< by file name
     std::uint64_t generation_ = 0;
+    std::shared_ptr<Observed> observed_ = std::make_shared<Observed>();
 };
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 #include "common/rectification/rectify_pass.h"
 
 #include "common/base/error.h"
+#include "common/rectification/packed_positions.h"
 
 namespace vantage {
 namespace {
@@ -24,11 +25,17 @@ RectifyPass::RectifyPass(const ShaderLibrary& library, const StereoCalibration& 
       side_(side),
       raw_size_(camera_of(calibration, side).width_px, camera_of(calibration, side).height_px),
       is_identity_(is_identity(calibration, side)),
-      positions_(make_target(TextureFormat::rg32f, calibration, is_identity_)),
+      packed_(is_identity_
+                  ? std::nullopt
+                  : packed_positions(make_rectification_map(calibration, side), raw_size_)),
+      positions_(make_target(packed_ ? TextureFormat::r32ui : TextureFormat::rg32f, calibration,
+                             is_identity_)),
       rectified_(make_target(TextureFormat::rgba8, calibration, is_identity_)),
       target_({&rectified_}),
-      pass_(library, "rectify.frag") {
-    if (!is_identity_) positions_.upload(make_rectification_map(calibration, side));
+      pass_(library, "rectify.frag", {{"PACKED", packed_ ? "1" : "0"}}) {
+    if (is_identity_) return;
+    positions_.upload(packed_ ? cv::Mat(*packed_) : make_rectification_map(calibration, side));
+    packed_.reset();
 }
 
 const Texture& RectifyPass::rectify(const Texture& raw) {
@@ -44,7 +51,7 @@ const Texture& RectifyPass::rectify(const Texture& raw) {
     program.set("positions", 1);
     raw.bind(0);
     positions_.bind(1);
-    pass_.draw(target_);
+    pass_.overwrite(target_);
     return rectified_;
 }
 

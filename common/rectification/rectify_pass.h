@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "common/geometry/rectification_map.h"
@@ -34,6 +35,7 @@ class RectifyPass {
     Side side_;
     cv::Size raw_size_;
     bool is_identity_;
+    std::optional<cv::Mat1i> packed_;  ///< until it is on the GPU
     Texture positions_, rectified_;
     Framebuffer target_;
     FullscreenPass pass_;

@@ -18,7 +18,7 @@ void check_printable(std::string_view what, std::string_view text) {
 
 /// The length of a refusal, and of a fetch's trouble.
 constexpr std::size_t max_refusal_chars = 512;
-constexpr std::size_t max_date_chars = 40, max_version_chars = 40;
+constexpr std::size_t max_date_chars = 40, max_version_chars = 40, max_starting_chars = 120;
 
 void to_wire(const RigHealth& health, wire::Health& out) {
     if (health.temperature_c) out.set_temperature_c(*health.temperature_c);
@@ -30,6 +30,7 @@ void to_wire(const RigHealth& health, wire::Health& out) {
     out.set_calibration_row_rms_px(health.calibration_row_rms_px);
     out.set_program_version(health.program_version.substr(0, max_version_chars));
     out.set_refused_connections(health.refused_connections);
+    out.set_starting(health.starting.substr(0, max_starting_chars));
 }
 
 RigHealth from_wire(const wire::Health& in) {
@@ -46,6 +47,10 @@ RigHealth from_wire(const wire::Health& in) {
         fail("a program version of {} characters is beyond the limit of {}",
              in.program_version().size(), max_version_chars);
     check_printable("program version", in.program_version());
+    if (in.starting().size() > max_starting_chars)
+        fail("a rig describes its start in {} characters, beyond the limit of {}",
+             in.starting().size(), max_starting_chars);
+    check_printable("description of a start", in.starting());
     RigHealth health;
     if (in.has_temperature_c()) health.temperature_c = in.temperature_c();
     health.under_voltage = in.under_voltage();
@@ -56,6 +61,7 @@ RigHealth from_wire(const wire::Health& in) {
     health.calibration_row_rms_px = in.calibration_row_rms_px();
     health.program_version = in.program_version();
     health.refused_connections = in.refused_connections();
+    health.starting = in.starting();
     return health;
 }
 

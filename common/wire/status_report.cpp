@@ -61,6 +61,7 @@ nlohmann::ordered_json to_json(const RigHealth& health) {
                                 {"refused_connections", health.refused_connections},
                                 {"calibration", nullptr}};
     if (!health.program_version.empty()) json["version"] = health.program_version;
+    if (!health.starting.empty()) json["starting"] = health.starting;
     if (health.temperature_c) json["temperature_c"] = *health.temperature_c;
     if (!health.calibration_date.empty())
         json["calibration"] = {{"id", health.calibration_id},
@@ -82,6 +83,7 @@ std::string pulse_text(const RigSync& sync) {
 std::string health_text(const RigHealth& health) {
     std::string text = fmt::format("{:.1f} frames/s captured, {:.1f} published", health.captured_hz,
                                    health.published_hz);
+    if (!health.starting.empty()) text += "; starting: " + health.starting;
     if (health.temperature_c) text += fmt::format("; {:.0f} C", *health.temperature_c);
     if (health.under_voltage) text += "; UNDER-VOLTAGE: use a stronger supply or a shorter cable";
     if (health.refused_connections > 0)

@@ -100,7 +100,7 @@ const Texture& CameraIntake::bring(const LentPicture& picture) {
     program.set("plane", 0);
     program.set("chroma", 1);
     program.set("first_column_px", picture.view.x);
-    pass.draw(target_);
+    pass.overwrite(target_);
     return colour_;
 }
 

@@ -1,6 +1,7 @@
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -82,6 +83,7 @@ class StatusLines {
                    rate_hz, c.captured, c.published, c.missed, c.late, c.send_dropped,
                    status.capture_ms.p50, status.rectify_ms.p50, status.match_ms.p50,
                    status.pack_ms.p50, status.latency_ms.p50) +
+               (status.starting.empty() ? "" : "; " + status.starting) +
                (pulses.empty() ? "" : "; " + pulses) +
                (status.keeps.empty() ? "" : "; " + status.keeps);
     }
@@ -94,8 +96,11 @@ class StatusLines {
 /// Feeds the service manager's watchdog as long as every thread of the daemon comes round.
 /// `stuck`: the one that did not at the last call.
 void tell(ServiceNotifier& service, const RigDaemon& daemon, std::string& stuck) {
+    const DaemonStatus status = daemon.status();
     const std::string published =
-        fmt::format("{} frames published", daemon.status().publisher.counters.published);
+        status.starting.empty()
+            ? fmt::format("{} frames published", status.publisher.counters.published)
+            : status.starting;
     const std::string worker = daemon.stuck_worker(stuck_after);
     if (worker.empty()) {
         service.alive(published);
@@ -112,7 +117,12 @@ void run(const RunOptions& options) {
     const RigConfig config = load_rig_config(options.config);
     StopSignal stop;
     RigDaemon daemon(config, options.frames);
-    for (const std::string& line : daemon.report()) log_info("{}: {}", config.name, line);
+    std::set<std::string> said;
+    const auto say_new_lines = [&] {
+        for (const std::string& line : daemon.report())
+            if (said.insert(line).second) log_info("{}: {}", config.name, line);
+    };
+    say_new_lines();
 
     std::optional<ServiceAnnouncement> announcement;
     if (const Endpoint bound = parse_endpoint(daemon.endpoint(), "stream.bind"); !bound.loopback)
@@ -122,9 +132,15 @@ void run(const RunOptions& options) {
     service.ready();
     StatusLines lines;
     std::string stuck;
+    bool is_started = false;
     MonotonicTime next_status = MonotonicClock::now() + status_every;
     while (daemon.running() && !stop.wait_for(StopSignal::look_period)) {
         tell(service, daemon, stuck);
+        // The lines about the GPU come once its shaders are compiled.
+        if (!is_started && daemon.status().starting.empty()) {
+            is_started = true;
+            say_new_lines();
+        }
         if (MonotonicClock::now() < next_status) continue;
         next_status += status_every;
         log_info("{}: {}", config.name, lines.next(daemon.status()));

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/gl/context/driver_lock.h"
 
 namespace vantage {
@@ -23,25 +24,56 @@ std::string chosen_matcher(const RigConfig& config) {
     return default_matcher(parse_preset(config.match.preset));
 }
 
+/// The configuration with this preset.
+RigConfig with_preset(RigConfig config, const std::string& preset) {
+    config.match.preset = preset;
+    return config;
+}
+
+/// The presets that a configuration allows, the best first.
+std::vector<std::string> allowed_presets(const RigConfig& config) {
+    if (config.match.preset != "auto") return {config.match.preset};
+    return {"quality", "balanced", "fast"};
+}
+
+MatchSettings match_settings(const RigConfig& config, const RectifiedStereo& geometry) {
+    return {.width_px = geometry.width_px,
+            .height_px = geometry.height_px,
+            .disparities = config.match.disparities,
+            .preset = parse_preset(config.match.preset),
+            .fill = config.match.fill,
+            .of_stream = config.match.steady};
+}
+
+ShaderLibrary observed_library(ProgramObserver observer) {
+    ShaderLibrary library;
+    library.observe_programs(std::move(observer));
+    return library;
+}
+
 std::unique_ptr<Matcher> chosen(const std::string& name, const RigConfig& config,
                                 const ShaderLibrary& shaders, const RectifiedStereo& geometry) {
     if (name == exact_matcher) return nullptr;
-    return make_matcher(name, shaders,
-                        {.width_px = geometry.width_px,
-                         .height_px = geometry.height_px,
-                         .disparities = config.match.disparities,
-                         .preset = parse_preset(config.match.preset),
-                         .fill = config.match.fill,
-                         .of_stream = config.match.steady});
+    return make_matcher(name, shaders, match_settings(config, geometry));
 }
 
 }  // namespace
 
+void require_matching(const RigConfig& config, const StereoCalibration& calibration) {
+    for (const std::string& preset : allowed_presets(config)) {
+        const RigConfig candidate = with_preset(config, preset);
+        const std::string name = chosen_matcher(candidate);
+        if (name == exact_matcher) return;
+        require_matcher(name);
+        match_settings(candidate, calibration.rectified).validate();
+    }
+}
+
 GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration,
-                   std::span<const LentPicture> specimens)
+                   std::span<const LentPicture> specimens, ProgramObserver observer)
     : info_(GlInfo::query()),
+      shaders_(observed_library(std::move(observer))),
       calibration_(calibration),
-      matcher_name_(chosen_matcher(config)),
       disparities_(config.match.disparities),
       rectified_already_(is_identity(calibration, Side::left)),
       left_intake_(context_, shaders_, {calibration.left.width_px, calibration.left.height_px}),
@@ -49,25 +81,55 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
       rectify_left_(shaders_, calibration, Side::left),
       rectify_right_(shaders_, calibration, Side::right),
       sends_right_(config.stream.jpeg_quality > 0),
-      packer_(config.stream.jpeg_quality, parse_chroma(config.stream.chroma)),
-      matcher_(chosen(matcher_name_, config, shaders_, calibration.rectified)) {
+      packer_(config.stream.jpeg_quality, parse_chroma(config.stream.chroma)) {
     info_.require_vantage_minimum();
     prepare_intakes(config.source.buffers, specimens);
-    if (matcher_ && config.match.steady)
+    if (config.match.steady && config.match.matcher != exact_matcher)
         steady_.emplace(shaders_, calibration.rectified.width_px, calibration.rectified.height_px);
-    if (rectified_already_ && !matcher_) return;
-    // Drivers finish their programs at the first drawing: seconds, where the processor draws, in
-    // which real frames would be lost.
-    StereoFrame dark;
-    const cv::Vec4b black(0, 0, 0, 255);
-    dark.left = ColourImage(calibration.left.height_px, calibration.left.width_px, black);
-    dark.right = ColourImage(calibration.right.height_px, calibration.right.width_px, black);
-    RigFrame unused;
-    rectify_and_match(dark, unused);
-    // They are no part of the stream.
+    choose_matcher(config);
+    // The dark frames are no part of the stream.
     right_sent_.reset();
     if (matcher_) matcher_->forget();
     if (steady_) steady_->forget();
+    shaders_.observe_programs({});
+}
+
+void GpuStage::choose_matcher(const RigConfig& config) {
+    const double period_ms = 1e3 / config.source.rate_hz, limit_ms = period_ms * 2 / 3;
+    for (const std::string& preset : allowed_presets(config)) {
+        const RigConfig candidate = with_preset(config, preset);
+        matcher_name_ = chosen_matcher(candidate);
+        matcher_.reset();  // before the next one takes its memory
+        matcher_ = chosen(matcher_name_, candidate, shaders_, calibration_.rectified);
+        // Drivers finish their programs at the first drawing: seconds, where the processor draws,
+        // in which real frames would be lost.
+        if (!rectified_already_ || matcher_) match_dark_frame_ms();
+        if (config.match.preset != "auto" || !matcher_) return;
+        const double frame_ms = std::min(match_dark_frame_ms(), match_dark_frame_ms());
+        preset_report_ = fmt::format(
+            "preset auto: {}, whose frame takes {:.1f} ms here, and two thirds of a period at "
+            "{:.3g} Hz are {:.1f} ms",
+            preset, frame_ms, config.source.rate_hz, limit_ms);
+        if (frame_ms <= limit_ms) return;
+    }
+    preset_report_ += ": no preset holds this rate with a margin of a third";
+    log_warning("{}; lower 'rate_hz', the size or 'disparities'", preset_report_);
+}
+
+double GpuStage::match_dark_frame_ms() {
+    StereoFrame dark;
+    const cv::Vec4b black(0, 0, 0, 255);
+    dark.left = ColourImage(calibration_.left.height_px, calibration_.left.width_px, black);
+    dark.right = ColourImage(calibration_.right.height_px, calibration_.right.width_px, black);
+    RigFrame unused;
+    const MonotonicTime start = MonotonicClock::now();
+    rectify_and_match(dark, unused);
+    return milliseconds_since(start);
+}
+
+std::chrono::nanoseconds GpuStage::frame_limit() const {
+    constexpr std::chrono::seconds hung_after(10);
+    return info_.is_software ? Fence::no_limit : hung_after;
 }
 
 void GpuStage::prepare_intakes(const std::string& buffers, std::span<const LentPicture> specimens) {
@@ -160,10 +222,10 @@ void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     if (is_timed) match_timer_.end();
     // Everything is under way; what comes first is packed while the GPU matches.
     if (disparity) disparity_readback_.begin(*disparity);
-    result.colour = has_colour ? frame.left : ColourImage(colour_readback_.take());
-    if (is_right_due) result.right = ColourImage(right_readback_.take());
+    result.colour = has_colour ? frame.left : ColourImage(colour_readback_.take({}, frame_limit()));
+    if (is_right_due) result.right = ColourImage(right_readback_.take({}, frame_limit()));
     packer_.pack(result);
-    if (disparity) result.disparity = disparity_readback_.take();
+    if (disparity) result.disparity = disparity_readback_.take({}, frame_limit());
     result.times.rectify_ms = static_cast<float>(rectify_timer_.wait_ms());
 }
 
@@ -173,6 +235,7 @@ std::vector<std::string> GpuStage::report() const {
         lines.push_back(fmt::format("EGL {}: {}", attempt.platform, attempt.outcome));
     lines.push_back(fmt::format("GPU: {}, {}", info_.renderer, info_.version));
     if (!intake_report_.empty()) lines.push_back(intake_report_);
+    if (!preset_report_.empty()) lines.push_back(preset_report_);
     lines.push_back(rectified_already_ ? "the pictures are rectified already"
                                        : "rectifying on the GPU");
     lines.push_back(

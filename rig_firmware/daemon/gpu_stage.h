@@ -25,19 +25,25 @@ namespace vantage {
 /// Between two right pictures that travel. Of what stands still a few are enough.
 inline constexpr std::chrono::milliseconds right_period{500};
 
+/// Throws Error where the configuration asks for a matcher, preset or size that there is not, or
+/// for a matcher that the source does not serve. Needs no GPU.
+void require_matching(const RigConfig& config, const StereoCalibration& calibration);
+
 /// The GPU's part of the road: upload, rectify, match, read back. Owns its GL context; made, used
 /// and destroyed on one thread.
 class GpuStage {
   public:
     /// `specimens`: buffers such as the source lends its pictures in, left and right; none: it
-    /// lends none. Throws Error if there is no OpenGL ES, the config's matcher or calibration does
-    /// not fit, or it asks for an import that is not possible.
+    /// lends none. Compiles all shaders, which takes from a second to some minutes, and tells
+    /// `observer` of each. Throws Error if there is no OpenGL ES, the config's matcher or
+    /// calibration does not fit, or it asks for an import that is not possible.
     GpuStage(const RigConfig& config, const StereoCalibration& calibration,
-             std::span<const LentPicture> specimens = {});
+             std::span<const LentPicture> specimens = {}, ProgramObserver observer = {});
 
     /// Rectifies and matches one instant, and packs its colour while the GPU matches; the right
     /// picture's too, every right_period, by which hosts match the set. Fills picture, disparity,
-    /// geometry, pose and the times of these steps.
+    /// geometry, pose and the times of these steps. Throws ContextLost if the GPU was reset or does
+    /// not finish: a new stage has to be made then.
     RigFrame process(StereoFrame frame);
 
     /// Lent pictures of both sides so far.
@@ -47,7 +53,14 @@ class GpuStage {
     std::vector<std::string> report() const;
 
   private:
+    /// How long a frame may take before the GPU counts as hung; a processor that draws may take any
+    /// time.
+    std::chrono::nanoseconds frame_limit() const;
     void rectify_and_match(const StereoFrame& frame, RigFrame& result);
+    /// Makes the matcher of the best preset whose frames take at most two thirds of a period.
+    void choose_matcher(const RigConfig& config);
+    /// Matches black pictures, which has drivers finish their programs. Returns what it took.
+    double match_dark_frame_ms();
     void prepare_intakes(const std::string& buffers, std::span<const LentPicture> specimens);
 
     EglContext context_;
@@ -58,6 +71,7 @@ class GpuStage {
     int disparities_;
     bool rectified_already_;
     CameraIntake left_intake_, right_intake_;
+    std::string preset_report_;  ///< how the preset was chosen; empty: it was given
     std::string intake_report_;  ///< empty: the source lends no pictures
     RectifyPass rectify_left_, rectify_right_;
     GpuTimer rectify_timer_, match_timer_;

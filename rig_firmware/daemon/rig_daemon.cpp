@@ -16,6 +16,7 @@
 #include "common/base/this_thread.h"
 #include "common/base/time/time.h"
 #include "common/config/calibration_file.h"
+#include "common/gl/context/context_loss.h"
 #include "rig_firmware/capture/rig_calibration.h"
 #include "rig_firmware/clock/clock_model.h"
 #include "rig_firmware/clock/clock_pair.h"
@@ -82,6 +83,24 @@ RigFrame raw_pair_of(const StereoFrame& frame, const std::string& calibration_id
     return pair;
 }
 
+/// The lines of the start-up report. The publisher's thread asks for them, and outlives the rest of
+/// the daemon.
+class SharedLines {
+  public:
+    void set(std::vector<std::string> lines) {
+        const std::lock_guard lock(mutex_);
+        lines_ = std::move(lines);
+    }
+    std::vector<std::string> lines() const {
+        const std::lock_guard lock(mutex_);
+        return lines_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    std::vector<std::string> lines_;
+};
+
 }  // namespace
 
 struct RigDaemon::Impl {
@@ -111,6 +130,10 @@ struct RigDaemon::Impl {
     void capture_one(StereoSource& source);
     void run_gpu(const std::optional<StereoCalibration>& calibration,
                  const std::vector<LentPicture>& specimens, std::promise<void> ready);
+    void set_up_gpu(std::optional<GpuStage>& gpu, const StereoCalibration& calibration,
+                    const std::vector<LentPicture>& specimens);
+    void note_compiling(const ProgramProgress& progress);
+    std::vector<std::string> report() const;
     void publish();
     void keep_in_step(const RigHealth& facts);
     void announce(std::uint64_t first_pulse);
@@ -158,9 +181,13 @@ struct RigDaemon::Impl {
     RigSync sync;
     PercentileRecorder capture_ms, rectify_ms, match_ms, pack_ms, latency_ms;
     std::vector<std::string> source_report, gpu_report;
+    const std::shared_ptr<SharedLines> said_at_start = std::make_shared<SharedLines>();
+    std::string starting;  ///< see DaemonStatus
+    std::uint64_t gpu_restarts = 0;
     std::exception_ptr failure;
 
-    std::uint64_t refused_pulse = 0;  ///< only the thread that keeps in step uses it
+    MonotonicTime compiling_logged{};  ///< only the GPU's thread uses it
+    std::uint64_t refused_pulse = 0;   ///< only the thread that keeps in step uses it
 
     Heartbeat capture_heart{"capture"}, gpu_heart{"gpu"}, publish_heart{"publish"},
         sync_heart{"sync"};
@@ -173,9 +200,9 @@ struct RigDaemon::Impl {
 void RigDaemon::Impl::start() {
     std::promise<SourceFacts> source_ready;
     std::future<SourceFacts> source = source_ready.get_future();
-    std::promise<void> all_stand;
+    std::promise<void> gpu_ready;
     capture_thread =
-        std::thread([this, p = std::move(source_ready), go = all_stand.get_future()]() mutable {
+        std::thread([this, p = std::move(source_ready), go = gpu_ready.get_future()]() mutable {
             guarded(capture_heart, [&] { capture(std::move(p), go); });
             captured.close();
         });
@@ -190,21 +217,21 @@ void RigDaemon::Impl::start() {
     } else {
         calibration = rig_calibration(config, source_facts.size);
     }
-    std::promise<void> gpu_ready;
-    std::future<void> gpu = gpu_ready.get_future();
+    if (calibration) {
+        require_matching(config, *calibration);
+        starting = "setting up the GPU";
+    }
     gpu_thread = std::thread([this, calibration, specimens = std::move(source_facts.specimens),
                               p = std::move(gpu_ready)]() mutable {
         guarded(gpu_heart, [&] { run_gpu(calibration, specimens, std::move(p)); });
         matched.close();
     });
-    gpu.get();
     publish_heart.beat();
     sync_heart.beat();
     publish_thread = std::thread([this] {
         guarded(publish_heart, [&] { publish(); });
         finished = true;
     });
-    all_stand.set_value();
     sync_thread = std::thread([this, facts = facts_of(config, calibration)] {
         guarded(sync_heart, [&] { keep_in_step(facts); });
     });
@@ -272,7 +299,12 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
         if (look % looks_per_second == 0) {
             clock = read_ptp();
             tai_offset_s = read_kernel_clock().tai_offset_s;
-            publisher.report(monitor.look(publisher.status().counters, MonotonicClock::now()));
+            RigHealth health = monitor.look(publisher.status().counters, MonotonicClock::now());
+            {
+                const std::lock_guard lock(mutex);
+                health.starting = starting;
+            }
+            publisher.report(health);
         }
         if (trigger) {
             trigger->rethrow_failure();
@@ -331,6 +363,7 @@ RigSync RigDaemon::Impl::sync_now(const std::optional<PtpReading>& clock, int ta
     now.clock_steps = time_of_day.steps;
     now.clock_step_ms = time_of_day.last_step_ns / ns_per_ms;
     const std::lock_guard lock(mutex);
+    now.ready = now.ready && starting.empty();
     if (sensor_clock) now.clock_ppm = sensor_clock->ppm;
     return now;
 }
@@ -338,19 +371,17 @@ RigSync RigDaemon::Impl::sync_now(const std::optional<PtpReading>& clock, int ta
 void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibration,
                               const std::vector<LentPicture>& specimens, std::promise<void> ready) {
     std::optional<GpuStage> gpu;
-    try {
-        if (calibration) gpu.emplace(config, *calibration, specimens);
+    if (calibration) {
+        set_up_gpu(gpu, *calibration, specimens);
+    } else {
         const std::lock_guard lock(mutex);
-        gpu_report = gpu ? gpu->report()
-                         : std::vector<std::string>{
-                               "not calibrated: raw pairs for vantage-calib, "
-                               "no views"};
-    } catch (...) {
-        ready.set_exception(std::current_exception());
-        return;
+        gpu_report = {"not calibrated: raw pairs for vantage-calib, no views"};
     }
     gpu_heart.beat();
     ready.set_value();
+    // Resets in a row, without a frame between them, after which a new context is of no use.
+    constexpr int most_resets_in_a_row = 3;
+    int resets_in_a_row = 0;
     while (!(captured.closed() && captured.size() == 0)) {
         gpu_heart.beat();
         std::optional<CapturedFrame> next = captured.pop_for(wait_slice);
@@ -359,7 +390,21 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
         if (!gpu || publisher.wants_raw_pair(next->frame.trigger_index))
             instant.raw_pair = raw_pair_of(next->frame, calibration ? calibration->id : "");
         if (gpu) {
-            instant.view = gpu->process(std::move(next->frame));
+            try {
+                instant.view = gpu->process(std::move(next->frame));
+                resets_in_a_row = 0;
+            } catch (const ContextLost& lost) {
+                count([](RigCounters& c) { ++c.late; });
+                if (++resets_in_a_row == most_resets_in_a_row) throw;
+                log_error("{}: {}; the GPU is set up anew", config.name, lost.what());
+                {
+                    const std::lock_guard lock(mutex);
+                    ++gpu_restarts;
+                }
+                next.reset();
+                set_up_gpu(gpu, *calibration, specimens);
+                continue;
+            }
             const std::lock_guard lock(mutex);
             lent_pictures = gpu->lent_pictures();
         }
@@ -367,6 +412,45 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
             if (*frame) (*frame)->times.capture_ms = next->capture_ms;
         if (matched.push(std::move(instant))) count([](RigCounters& c) { ++c.late; });
     }
+}
+
+/// Compiles the shaders, in a new context where there was one already.
+void RigDaemon::Impl::set_up_gpu(std::optional<GpuStage>& gpu, const StereoCalibration& calibration,
+                                 const std::vector<LentPicture>& specimens) {
+    gpu.reset();
+    const MonotonicTime begin = MonotonicClock::now();
+    note_compiling({});
+    gpu.emplace(config, calibration, specimens,
+                [this](const ProgramProgress& progress) { note_compiling(progress); });
+    gpu_heart.beat();
+    const std::vector<std::string> lines = gpu->report();
+    log_info("{}: the shaders were compiled in {:.1f} s", config.name,
+             to_ms(MonotonicClock::now() - begin) * 1e-3);
+    {
+        const std::lock_guard lock(mutex);
+        gpu_report = lines;
+        starting.clear();
+    }
+    said_at_start->set(report());
+}
+
+void RigDaemon::Impl::note_compiling(const ProgramProgress& progress) {
+    // The longest that one shader may take before its thread counts as stuck.
+    constexpr std::chrono::minutes longest_compiling(5);
+    constexpr std::chrono::seconds log_every(1);
+    const MonotonicTime now = MonotonicClock::now();
+    gpu_heart.beat(now + longest_compiling);
+    std::string text = "setting up the GPU";
+    if (progress.used > 0)
+        text = fmt::format("compiling shaders, {} of {}", progress.used, progress.made);
+    else if (progress.made > 0)
+        text = fmt::format("reading shaders, {} so far", progress.made);
+    if (now - compiling_logged >= log_every) {
+        compiling_logged = now;
+        log_info("{}: {} {}", config.name, text, progress.file);
+    }
+    const std::lock_guard lock(mutex);
+    starting = std::move(text);
 }
 
 void RigDaemon::Impl::publish() {
@@ -420,9 +504,10 @@ RigDaemon::RigDaemon(const RigConfig& config, std::uint64_t frame_limit)
     : impl_(std::make_unique<Impl>(config, frame_limit)) {
     try {
         impl_->start();
+        impl_->said_at_start->set(report());
         impl_->publisher.serve_reports(
-            [config, lines = report()](const std::atomic<bool>& stopping) {
-                return rig_report(config, lines, stopping);
+            [config, said = impl_->said_at_start](const std::atomic<bool>& stopping) {
+                return rig_report(config, said->lines(), stopping);
             });
     } catch (...) {
         impl_->stop();
@@ -471,6 +556,8 @@ DaemonStatus RigDaemon::status() const {
     for (SourceCounter& counter : status.source_counters)
         if (counter.name == copied_pictures) counter.count += impl_->lent_pictures.copied;
     status.source_counters.push_back({"imported_pictures", impl_->lent_pictures.imported});
+    status.source_counters.push_back({"gpu_restarts", impl_->gpu_restarts});
+    status.starting = impl_->starting;
     status.sync = impl_->sync;
     if (impl_->keeper)
         status.keeps = impl_->keeper->line();
@@ -486,15 +573,17 @@ DaemonStatus RigDaemon::status() const {
 
 std::string RigDaemon::endpoint() const { return impl_->publisher.endpoint(); }
 
-std::vector<std::string> RigDaemon::report() const {
-    const std::lock_guard lock(impl_->mutex);
-    std::vector<std::string> lines = impl_->source_report;
-    lines.insert(lines.end(), impl_->gpu_report.begin(), impl_->gpu_report.end());
-    if (impl_->trigger)
-        for (std::string& line : impl_->trigger->report()) lines.push_back(std::move(line));
-    const std::string key = impl_->publisher.public_key();
+std::vector<std::string> RigDaemon::report() const { return impl_->report(); }
+
+std::vector<std::string> RigDaemon::Impl::report() const {
+    const std::lock_guard lock(mutex);
+    std::vector<std::string> lines = source_report;
+    lines.insert(lines.end(), gpu_report.begin(), gpu_report.end());
+    if (trigger)
+        for (std::string& line : trigger->report()) lines.push_back(std::move(line));
+    const std::string key = publisher.public_key();
     lines.push_back(
-        fmt::format("publishing on {}, {}", impl_->publisher.endpoint(),
+        fmt::format("publishing on {}, {}", publisher.endpoint(),
                     key.empty() ? "without keys (this computer only)" : "public key " + key));
     return lines;
 }

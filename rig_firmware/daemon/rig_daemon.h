@@ -17,6 +17,8 @@ struct DaemonStatus {
     PublisherStatus publisher;  ///< its rig counters are the daemon's whole book
     std::vector<SourceCounter> source_counters;
     RigSync sync;
+    /// What the daemon does before its first frame ("compiling shaders, 7 of 21"); empty: it works.
+    std::string starting;
     std::string keeps;       ///< of the rig's own take, one line; empty: it keeps none
     Percentiles capture_ms;  ///< exposure to delivered
     Percentiles rectify_ms;  ///< upload, rectify
@@ -27,12 +29,15 @@ struct DaemonStatus {
 
 /// The road of a rig: capture -> GPU (rectify, match) -> pack and publish, a thread each. Between
 /// two of them waits at most one frame; a newer one takes its place, and the old one is counted as
-/// late. Capturing begins once every part stands. At every stop
+/// late. Hosts are served from the start; capturing begins once the GPU's shaders are compiled. A
+/// GPU that was reset or hangs is counted (source counter "gpu_restarts") and set up anew. At every
+/// stop
 ///     captured = published + late.
 class RigDaemon {
   public:
-    /// Returns once every part stands. Throws Error for whatever of the config cannot be had.
-    /// It ends by itself after `frame_limit` published frames, if that is not 0.
+    /// Returns once hosts can connect, while shaders may still be compiled. Throws Error for
+    /// whatever of the config cannot be had; what the GPU refuses ends the daemon later. It ends by
+    /// itself after `frame_limit` published frames, if that is not 0.
     explicit RigDaemon(const RigConfig& config, std::uint64_t frame_limit = 0);
     /// Stops the road; frames under way are finished or counted.
     ~RigDaemon();

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "common/base/error.h"
+#include "common/config/gpu_frame_model.h"
 #include "common/gl/context/egl_context.h"
 #include "common/gl/context/limits.h"
 #include "rig_firmware/probe/probe.h"
@@ -55,6 +56,19 @@ void describe(ProbePart& part, const EglContext& context) {
         part.unfit.emplace_back(
             "the driver cannot import camera buffers (dma-buf): every picture is copied to the "
             "GPU");
+    if (const GpuFrameModel* model = GpuFrameModel::of(info.renderer)) {
+        struct Shape {
+            int width_px, height_px, disparities;
+        };
+        constexpr Shape shapes[] = {{640, 400, 64}, {960, 720, 64}, {1280, 800, 128}};
+        constexpr double rate_hz = 30;
+        for (const Shape& shape : shapes) {
+            const std::string text =
+                model->fit_text(shape.width_px, shape.height_px, shape.disparities, rate_hz);
+            part.lines.push_back(text);
+            part.facts["fits"].push_back(text);
+        }
+    }
     try {
         info.require_vantage_minimum();
     } catch (const Error& error) {

@@ -5,8 +5,7 @@
 namespace vantage {
 
 EngineMatcher::EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings)
-    : luma_(library, layout_of(settings),
-            settings.of_stream ? PictureKind::of_stream : PictureKind::single),
+    : luma_(library, layout_of(settings), picture_kind(settings)),
       result_(library, layout_of(settings), settings.confidence) {}
 
 const Texture& EngineMatcher::match(const Texture& left, const Texture& right) {

@@ -21,7 +21,10 @@ namespace vantage {
 class EngineMatcher : public Matcher {
   public:
     const Texture& match(const Texture& left, const Texture& right) final;
-    void forget() final { luma_.forget(); }
+    void forget() final {
+        luma_.forget();
+        forget_search();
+    }
     const Texture* confidence() const final { return result_.confidence(); }
     std::vector<PassReport> passes() const final { return profiler_.reports(); }
     void set_profiling(bool on) final { profiler_.set_enabled(on); }
@@ -34,6 +37,8 @@ class EngineMatcher : public Matcher {
 
     /// From the pictures' lumas to a disparity for each of their pixels, in LeftRightPass's form.
     virtual const Buffer& search(PassProfiler& profiler, const LumaPass& luma) = 0;
+    /// Matcher::forget() for the search.
+    virtual void forget_search() = 0;
     /// GL objects of the search.
     virtual std::size_t search_bytes() const = 0;
 
@@ -81,6 +86,10 @@ class CheckAndFill {
     SmoothPass smooth_;
     MedianPass median_;
 };
+
+inline PictureKind picture_kind(const MatchSettings& settings) {
+    return settings.of_stream ? PictureKind::of_stream : PictureKind::single;
+}
 
 inline StereoLayout layout_of(const MatchSettings& settings) {
     return {settings.width_px, settings.height_px};

@@ -1,5 +1,7 @@
 #include "rig_firmware/stereo/matcher.h"
 
+#include <algorithm>
+
 #include "common/base/error.h"
 
 namespace vantage {
@@ -12,15 +14,21 @@ void MatchSettings::validate() const {
              height_px, max_side_px);
 }
 
-std::unique_ptr<Matcher> make_matcher(const std::string& name, const ShaderLibrary& library,
-                                      const MatchSettings& settings) {
-    settings.validate();
+void require_matcher(const std::string& name) {
     std::string known;
     for (const MatcherEntry& entry : matcher_entries()) {
-        if (entry.name == name) return entry.make(library, settings);
+        if (entry.name == name) return;
         known += (known.empty() ? "" : ", ") + entry.name;
     }
     fail("there is no matcher named '{}'; the ones there are: {}", name, known);
+}
+
+std::unique_ptr<Matcher> make_matcher(const std::string& name, const ShaderLibrary& library,
+                                      const MatchSettings& settings) {
+    settings.validate();
+    require_matcher(name);
+    const std::vector<MatcherEntry> entries = matcher_entries();
+    return std::ranges::find(entries, name, &MatcherEntry::name)->make(library, settings);
 }
 
 MatchPreset parse_preset(const std::string& name) {

@@ -13,7 +13,9 @@ namespace vantage {
 /// What one run of a pass asks of the GPU, by its own accounting.
 struct PassCost {
     std::size_t bytes_moved = 0;  ///< read + written, each texel that is needed counted once
-    double operations = 0;        ///< integer and float operations
+    /// Instructions of one lane, summed over all lanes, as Mesa's compiler for a Raspberry Pi 5
+    /// emits them (docs/results/v3d.md).
+    double operations = 0;
 };
 
 /// Keeps a matcher's book for Matcher::passes(): every pass of a frame runs through run(). Switched

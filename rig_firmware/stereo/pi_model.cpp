@@ -18,7 +18,8 @@ std::string pi_model_lines(const std::vector<PassReport>& passes) {
     std::string lines;
     for (const PiModel& model : pi_models)
         lines += fmt::format(
-            "{}: {:.1f} ms a frame by a bandwidth-and-arithmetic model (not measured)\n",
+            "{}: a frame takes {:.1f} ms at least, by a model of bandwidth and instructions (not "
+            "measured)\n",
             model.name, modelled_frame_ms(model, passes));
     return lines;
 }

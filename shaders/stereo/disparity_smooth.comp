@@ -64,6 +64,23 @@ void main() {
         smoothed[(row + x) >> 2] = moved(words, here, sum);
     }
 }
+#elif LANE_MAPPING == LANES_DISPARITIES
+// For GPUs with few registers per lane: nothing slides from row to row, and rows are read again from the cache.
+uvec4 words_at(int x, int y) { return disparity[(y * stride + x) >> 2]; }
+
+void main() {
+    int x = int(gl_GlobalInvocationID.x) * 4, first_row = int(gl_GlobalInvocationID.y) * ROWS;
+    if (x >= size.x || first_row >= size.y) return;
+    int reach = 4 + min(stride, 0);  // 4, and a loop that the compiler does not unroll
+    for (int y = first_row; y < min(first_row + ROWS, size.y); ++y) {
+        uvec4 words = words_at(x, y);
+        ivec4 here = known(words), sum = ivec4(0);
+        // Pairs that reach over an end of the column do not count.
+        int last = min(reach, min(y, size.y - 1 - y));
+        for (int k = 1; k <= last; ++k) sum += pair(here, known(words_at(x, y - k)), known(words_at(x, y + k)));
+        smoothed[(y * stride + x) >> 2] = moved(words, here, sum);
+    }
+}
 #else
 uvec4 words_at(int x, int y) { return disparity[(y * stride + x) >> 2]; }
 ivec4 row_at(int x, int y) {

@@ -38,11 +38,12 @@ bool is_streak(int pixel, uint d, uint surface) {
     return d != 0u && expected <= around(pixel, d) + MOST_GAIN && expected + LEAST_VALLEY <= beside(pixel, surface);
 }
 
-#define JUDGE(c)                                                                                                     \
+#define JUDGE(c, k)                                                                                                  \
     if (judged.c != 0u)                                                                                              \
         for (uint row = first_row.c; row <= last_row.c; ++row) {                                                     \
             int place = column + int(row) * step;                                                                    \
-            if (is_streak(block_at(x.c, int(row), size.y), disparity[place].c & 0xffffu, (above.c + here.c) >> 1)) \
+            if (is_streak(block_at(column * 4 + k, int(row), size.y), disparity[place].c & 0xffffu,                  \
+                          (above.c + here.c) >> 1))                                                                  \
                 disparity[place].c = 0u;                                                                             \
         }
 
@@ -56,8 +57,6 @@ void main() {
     int column = int(gl_GlobalInvocationID.x);
     if (column * 4 >= size.x) return;
     int step = stride >> 2;
-    ivec4 x = ivec4(column * 4) + ivec4(0, 1, 2, 3);
-    uvec4 inside = uvec4(lessThan(x, ivec4(size.x)));
     // The runs that the walk is in, and what ended right above them.
     uvec4 above = uvec4(0u), bottom = uvec4(0u), first_row = uvec4(0u), last_row = uvec4(0u);
     uvec4 here, known, begins, judged;
@@ -66,7 +65,8 @@ void main() {
         // llvmpipe goes through what a condition leaves out, and jumps at the end of a loop only: in this one is
         // what every step needs.
         for (; y < size.y; ++y, at += step) {
-            here = (disparity[at] & 0xffffu) * inside;
+            here = disparity[at] & 0xffffu;
+            here *= uvec4(lessThan(ivec4(column * 4) + ivec4(0, 1, 2, 3), ivec4(size.x)));
             known = uvec4(notEqual(here, uvec4(0u)));
             begins = known * (1u - are_near(bottom, here));
             judged =
@@ -74,7 +74,7 @@ void main() {
             if (judged != uvec4(0u)) break;
             GO_ON
         }
-        JUDGE(x) JUDGE(y) JUDGE(z) JUDGE(w)
+        JUDGE(x, 0) JUDGE(y, 1) JUDGE(z, 2) JUDGE(w, 3)
         GO_ON
         ++y;
         at += step;

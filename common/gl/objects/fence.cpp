@@ -1,5 +1,6 @@
 #include "common/gl/objects/fence.h"
 
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -39,8 +40,20 @@ bool Fence::reached_within(std::chrono::nanoseconds time) const {
     return outcome != GL_TIMEOUT_EXPIRED;
 }
 
-void Fence::wait(const char* doing) const {
-    while (!reached_within(std::chrono::seconds(1))) require_context(doing);
+void Fence::wait(const char* doing, std::chrono::nanoseconds limit) const {
+    constexpr std::chrono::nanoseconds look_every = std::chrono::seconds(1);
+    std::chrono::nanoseconds waited(0);
+    for (;;) {
+        const std::chrono::nanoseconds slice = std::min(look_every, limit - waited);
+        if (reached_within(slice)) return;
+        waited += slice;
+        require_context(doing);
+        if (waited >= limit)
+            throw ContextLost(fmt::format(
+                "the GPU has not finished its work within {} ms while {}: it hangs, or its driver "
+                "has reset it",
+                std::chrono::duration_cast<std::chrono::milliseconds>(limit).count(), doing));
+    }
 }
 
 void Fence::hold_current_context() const {

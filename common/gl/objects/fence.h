@@ -23,9 +23,13 @@ class Fence {
     /// Waits up to `time` for the GPU; returns whether it reached the point. Throws Error if the
     /// GPU is lost.
     bool reached_within(std::chrono::nanoseconds time) const;
-    /// Waits for the GPU without a limit. Throws ContextLost with `doing` if it was reset, Error if
-    /// it is lost.
-    void wait(const char* doing) const;
+    /// No limit for wait().
+    static constexpr std::chrono::nanoseconds no_limit = std::chrono::nanoseconds::max();
+
+    /// Waits for the GPU. Throws ContextLost with `doing` if the GPU was reset or has not reached
+    /// the point within `limit` (it hangs, or the driver cannot report resets), Error if it is
+    /// lost.
+    void wait(const char* doing, std::chrono::nanoseconds limit = no_limit) const;
     /// Makes later commands of the current context wait for the point; the thread does not wait.
     void hold_current_context() const;
 

@@ -43,6 +43,14 @@ void Framebuffer::bind() const {
     glViewport(0, 0, size_.width, size_.height);
 }
 
+void Framebuffer::discard_colours() const {
+    bind();
+    GLenum attachments[PiLimits::max_colour_targets] = {};
+    for (int i = 0; i < colour_targets_; ++i)
+        attachments[i] = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(i);
+    glInvalidateFramebuffer(GL_FRAMEBUFFER, colour_targets_, attachments);
+}
+
 namespace {
 
 /// The layout in which the driver reads the framebuffer that is bound for reading.

@@ -32,6 +32,10 @@ class Framebuffer {
     /// Binds it for drawing and sets the viewport to its full size.
     void bind() const;
 
+    /// Binds it for drawing and tells the driver that its colour targets need not be kept; the next
+    /// draw must cover every pixel.
+    void discard_colours() const;
+
     /// Reads one colour target into `image` (of the texture's size and cv_type, top row first).
     /// Restores the framebuffer binding. Waits for the GPU.
     void read(int target, cv::Mat& image) const;

@@ -76,6 +76,7 @@ Program::Program(const ShaderLibrary& library, std::string first, std::string se
       first_(std::move(first)),
       second_(std::move(second)),
       defines_(std::move(defines)) {
+    library_->note_made(file());
     build();
 }
 
@@ -150,6 +151,10 @@ void Program::use() {
         } catch (const Error& error) {
             log_error("{}; the last good version stays in use", error.what());
         }
+    }
+    if (!is_used_) {
+        is_used_ = true;
+        library_->note_used(file());
     }
     glUseProgram(handle_.name());
 }

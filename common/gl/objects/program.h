@@ -86,6 +86,8 @@ class Program {
             ShaderDefines defines);
     void build();
     void assign_units();
+    /// The file name of the compute or fragment shader, which names the program.
+    const std::string& file() const { return second_.empty() ? first_ : second_; }
     GLint location(std::string_view name);
     /// The texture unit of a sampler ("x", or "x[2]" of an array); -1 if the compiler removed it.
     int unit(std::string_view name) const;
@@ -98,6 +100,7 @@ class Program {
     GlHandle<delete_program> handle_;
     GLint workgroup_[3] = {1, 1, 1};
     std::uint64_t generation_ = 0;
+    bool is_used_ = false;
     std::unordered_map<std::string, GLint> locations_;
     std::map<std::string, int, std::less<>> units_;
 };

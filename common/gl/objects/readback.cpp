@@ -20,9 +20,9 @@ void Readback::begin(const Texture& texture) {
     fence_ = Fence::insert();
 }
 
-cv::Mat Readback::take(cv::Mat pixels) {
+cv::Mat Readback::take(cv::Mat pixels, std::chrono::nanoseconds limit) {
     CV_Assert(layout_);
-    fence_.wait("a picture was read back");
+    fence_.wait("a picture was read back", limit);
     fence_ = {};
     pixels.create(size_, layout_->cv_type);
     buffer_->read(0,

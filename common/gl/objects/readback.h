@@ -17,9 +17,9 @@ class Readback {
     /// Copies the texture as it is after the commands issued so far.
     void begin(const Texture& texture);
     bool is_begun() const { return layout_.has_value(); }
-    /// Waits for the copy. `pixels`: memory to reuse if its size and type match. Precondition:
-    /// is_begun(), which is false afterwards.
-    cv::Mat take(cv::Mat pixels = {});
+    /// Waits for the copy, for at most `limit` (see Fence::wait). `pixels`: memory to reuse if its
+    /// size and type match. Precondition: is_begun(), which is false afterwards.
+    cv::Mat take(cv::Mat pixels = {}, std::chrono::nanoseconds limit = Fence::no_limit);
 
   private:
     std::optional<Buffer> buffer_;

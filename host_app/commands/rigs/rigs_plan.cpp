@@ -1,6 +1,8 @@
+#include <array>
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -11,6 +13,7 @@
 #include "common/base/cli/stop_signal.h"
 #include "common/base/error.h"
 #include "common/base/time/time.h"
+#include "common/config/gpu_frame_model.h"
 #include "common/config/stage_config.h"
 #include "common/receive/link_budget.h"
 #include "common/receive/stage_receiver.h"
@@ -163,6 +166,18 @@ void print(const std::vector<RigWeight>& weights, const LinkBudget& budget, doub
                                  words_of(proposal, rate_hz), proposal.host_mbit_s);
 }
 
+/// Which preset a Raspberry Pi could match the rigs' pictures with, once for each size.
+void print_gpu_fits(const std::vector<std::shared_ptr<const RigFrame>>& latest, double rate_hz) {
+    std::set<std::array<int, 3>> shapes;
+    for (const auto& frame : latest)
+        if (frame && frame->max_disparity_px > 0)
+            shapes.insert({frame->geometry.width_px, frame->geometry.height_px,
+                           static_cast<int>(frame->max_disparity_px)});
+    for (const auto& [width_px, height_px, disparities] : shapes)
+        for (const GpuFrameModel& model : GpuFrameModel::all())
+            std::cout << model.fit_text(width_px, height_px, disparities, rate_hz) << "\n";
+}
+
 nlohmann::ordered_json to_json(const std::vector<RigWeight>& weights, const LinkBudget& budget,
                                double rate_hz) {
     nlohmann::ordered_json rigs = nlohmann::ordered_json::array(), proposals = rigs;
@@ -202,6 +217,7 @@ void plan(const PlanOptions& options) {
         std::cout << to_json(weights, budget, rate_hz).dump() << '\n';
     else
         print(weights, budget, rate_hz);
+    if (!options.json) print_gpu_fits(latest, rate_hz);
     if (budget.fits()) return;
     std::string full;
     for (const LinkBudget::Rig& rig : budget.rigs)

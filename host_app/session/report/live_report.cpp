@@ -12,6 +12,7 @@ std::vector<std::string> computer_worries_of(const RigStatus& status) {
     constexpr float hot_c = 80;
     std::vector<std::string> worries;
     if (!status.connected) return worries;
+    if (!status.health.starting.empty()) worries.push_back(status.health.starting);
     if (status.health.temperature_c.value_or(0) >= hot_c)
         worries.push_back(fmt::format("{:.0f} C, it throttles from {:.0f} C on",
                                       *status.health.temperature_c, hot_c));

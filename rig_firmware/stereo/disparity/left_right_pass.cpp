@@ -21,7 +21,7 @@ LeftRightPass::LeftRightPass(const ShaderLibrary& library, const StereoLayout& l
 
 void LeftRightPass::run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("left-right check", {pixels * 44, static_cast<double>(pixels) * 30}, [&] {
+    profiler.run("left-right check", {pixels * 44, static_cast<double>(pixels) * 188}, [&] {
         Program& program = weight ? weighted_ : unweighted_;
         program.use();
         program.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));

@@ -9,7 +9,7 @@ MedianPass::MedianPass(const ShaderLibrary& library, const StereoLayout& layout)
 
 void MedianPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& medians) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("median", {pixels * 8, static_cast<double>(pixels) * 58}, [&] {
+    profiler.run("median", {pixels * 8, static_cast<double>(pixels) * 95}, [&] {
         disparity.bind_storage(0);
         medians.bind_storage(1);
         four_by_eight::run(program_, layout_);

@@ -44,7 +44,7 @@ void PathFillPass::run(PassProfiler& profiler, const Buffer& luma, const Buffer&
     const std::size_t pixels = layout_.pixels(), cells = cell_layout_.pixels();
     const int rows = cell_layout_.height_px, columns_of_four = (cell_layout_.width_px + 3) / 4;
     profiler.run(
-        "fill", {pixels * 14 + cells * 112, static_cast<double>(pixels + cells) * 80}, [&] {
+        "fill", {pixels * 14 + cells * 112, static_cast<double>(pixels + cells) * 154}, [&] {
             make_cells_.use();
             make_cells_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
             make_cells_.set("stride", layout_.stride_px());

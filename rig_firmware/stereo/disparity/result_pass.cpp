@@ -14,11 +14,11 @@ ResultPass::ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
 
 const Texture& ResultPass::run(PassProfiler& profiler, const Buffer& disparity) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("result", {pixels * 6, static_cast<double>(pixels) * 2}, [&] {
+    profiler.run("result", {pixels * 6, static_cast<double>(pixels) * 16}, [&] {
         Program& program = pass_.use();
         program.set("stride", layout_.stride_px());
         disparity.bind_storage(0);
-        pass_.draw(target_);
+        pass_.overwrite(target_);
     });
     return result_;
 }

@@ -10,7 +10,7 @@ RowFillPass::RowFillPass(const ShaderLibrary& library, const StereoLayout& layou
 void RowFillPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& filled) {
     support_.run(profiler, disparity, filled);
     const std::size_t pixels = layout_.pixels();
-    profiler.run("fill", {pixels * 20, static_cast<double>(pixels) * 16}, [&] {
+    profiler.run("fill", {pixels * 20, static_cast<double>(pixels) * 29}, [&] {
         program_.use();
         program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
         program_.set("stride", layout_.stride_px());

@@ -4,6 +4,7 @@
 #include "common/gl/objects/program.h"
 #include "rig_firmware/stereo/disparity/smooth_reference.h"
 #include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/lane_mapping.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
@@ -12,9 +13,10 @@ namespace vantage {
 /// neighbours that are both near in disparity, along rows, then along columns.
 class SmoothPass {
   public:
-    /// most_step: see smoothed_where_near.
+    /// most_step: see smoothed_where_near. lanes: changes the time that it takes, and no bit of the
+    /// result.
     SmoothPass(const ShaderLibrary& library, const StereoLayout& layout,
-               int most_step = disparity_steps_per_px);
+               int most_step = disparity_steps_per_px, LaneMapping lanes = lane_mapping_here());
 
     /// disparity in LeftRightPass's form; its contents are replaced. Unknown stays unknown, and
     /// confidence as it is.

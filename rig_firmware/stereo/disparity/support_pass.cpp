@@ -7,14 +7,18 @@
 
 namespace vantage {
 
-SupportPass::SupportPass(const ShaderLibrary& library, const StereoLayout& layout)
+SupportPass::SupportPass(const ShaderLibrary& library, const StereoLayout& layout,
+                         LaneMapping lanes)
     : layout_(layout),
-      program_(four_by_eight::program(library, "supported_disparity.comp",
+      program_(four_by_eight::program(library,
+                                      lanes == LaneMapping::disparities
+                                          ? "supported_disparity_narrow.comp"
+                                          : "supported_disparity.comp",
                                       {{"LEAST_VOTES", std::to_string(least_support_votes)}})) {}
 
 void SupportPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& supported) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("support", {pixels * 28, static_cast<double>(pixels) * 25 * 5}, [&] {
+    profiler.run("support", {pixels * 28, static_cast<double>(pixels) * 335}, [&] {
         disparity.bind_storage(0);
         supported.bind_storage(1);
         four_by_eight::run(program_, layout_);

@@ -3,6 +3,7 @@
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
 #include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/lane_mapping.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
@@ -11,7 +12,9 @@ namespace vantage {
 /// spread what an occluded stripe matched by chance.
 class SupportPass {
   public:
-    SupportPass(const ShaderLibrary& library, const StereoLayout& layout);
+    /// lanes: changes the time that it takes, and no bit of the result.
+    SupportPass(const ShaderLibrary& library, const StereoLayout& layout,
+                LaneMapping lanes = lane_mapping_here());
 
     /// Both in LeftRightPass's form.
     void run(PassProfiler& profiler, const Buffer& disparity, const Buffer& supported);

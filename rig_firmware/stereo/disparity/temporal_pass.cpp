@@ -32,7 +32,7 @@ const Texture& TemporalPass::run(const Texture& disparity, const Texture& pictur
     picture.bind(1);
     states_[newest_].bind(2);
     exposure_.gain().bind_storage(0);
-    pass_.draw(targets_[next]);
+    pass_.overwrite(targets_[next]);
     newest_ = next;
     has_state_ = true;
     return denoised_;

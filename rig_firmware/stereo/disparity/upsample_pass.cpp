@@ -12,7 +12,7 @@ UpsamplePass::UpsamplePass(const ShaderLibrary& library, const StereoLayout& coa
 void UpsamplePass::run(PassProfiler& profiler, const Buffer& coarse_disparity,
                        const Buffer& coarse_luma, const Buffer& fine_luma) {
     const std::size_t pixels = fine_.pixels();
-    profiler.run("upsample", {pixels * 7, static_cast<double>(pixels) * 40}, [&] {
+    profiler.run("upsample", {pixels * 7, static_cast<double>(pixels) * 67}, [&] {
         program_.use();
         program_.set("coarse_size", Eigen::Vector2i(coarse_.width_px, coarse_.height_px));
         program_.set("coarse_stride", coarse_.stride_px());

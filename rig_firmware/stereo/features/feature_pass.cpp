@@ -10,9 +10,11 @@ constexpr int rows_an_invocation = 16;
 
 }  // namespace
 
-FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities)
+FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+                         PictureKind kind)
     : layout_(layout),
       disparities_(disparities),
+      kind_(kind),
       features_program_(Program::compute(library, "stereo_features.comp",
                                          {{"ROWS", std::to_string(rows_an_invocation)}})),
       shifted_program_(
@@ -37,32 +39,39 @@ void FeaturePass::features(Program& program, const Buffer& luma, const Buffer& w
 
 void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("census and gradient", {pixels * 12, static_cast<double>(pixels) * 180}, [&] {
+    profiler.run("census and gradient", {pixels * 12, static_cast<double>(pixels) * 149}, [&] {
         features(features_program_, luma.left(), left_features_);
         features(features_program_, luma.right(), right_features_);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });
+    const bool compares = kind_ == PictureKind::single || frames_until_comparison_ == 0;
+    frames_until_comparison_ = (compares ? row_shift_period_frames : frames_until_comparison_) - 1;
     constexpr std::size_t sampling = 8 * 16;
-    const std::size_t compared = pixels / sampling * static_cast<std::size_t>(disparities_) * 5;
-    profiler.run("row shift", {compared * 4, static_cast<double>(compared) * 4}, [&] {
-        clear_program_.use();
-        clear_program_.set("count", 2);
-        votes_.bind_storage(0);
-        clear_program_.dispatch_over(2, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-        votes_program_.use();
-        votes_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
-        votes_program_.set("stride", layout_.stride_px());
-        votes_program_.set("disparities", disparities_);
-        left_features_.bind_storage(0);
-        right_features_.bind_storage(1);
-        votes_.bind_storage(2);
-        votes_program_.dispatch_over((layout_.width_px + 7) / 8, (layout_.height_px + 15) / 16);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    const std::size_t compared =
+        compares ? pixels / sampling * static_cast<std::size_t>(disparities_) * 5 : 0;
+    profiler.run("row shift", {compared * 4, static_cast<double>(compared) * 33}, [&] {
+        if (compares) compare_rows();
         votes_.bind_storage(2);
         features(shifted_program_, luma.right(), right_features_);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     });
+}
+
+void FeaturePass::compare_rows() {
+    clear_program_.use();
+    clear_program_.set("count", 2);
+    votes_.bind_storage(0);
+    clear_program_.dispatch_over(2, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    votes_program_.use();
+    votes_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
+    votes_program_.set("stride", layout_.stride_px());
+    votes_program_.set("disparities", disparities_);
+    left_features_.bind_storage(0);
+    right_features_.bind_storage(1);
+    votes_.bind_storage(2);
+    votes_program_.dispatch_over((layout_.width_px + 7) / 8, (layout_.height_px + 15) / 16);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 std::size_t FeaturePass::gpu_bytes() const {

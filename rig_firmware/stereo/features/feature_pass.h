@@ -15,10 +15,16 @@ namespace vantage {
 /// picture put right: a knock to a camera must not cost the depth until it is calibrated again.
 class FeaturePass {
   public:
+    /// Of a stream, rows are compared in one frame of so many: cameras move seldom.
+    static constexpr int row_shift_period_frames = 16;
+
     /// disparities: the search range, in which rows are compared.
-    FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities);
+    FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+                PictureKind kind = PictureKind::single);
 
     void run(PassProfiler& profiler, const LumaPass& luma);
+    /// The next pair does not follow the last one: its rows are compared.
+    void forget() { frames_until_comparison_ = 0; }
 
     const Buffer& left_features() const { return left_features_; }
     const Buffer& right_features() const { return right_features_; }
@@ -26,10 +32,13 @@ class FeaturePass {
     std::size_t gpu_bytes() const;
 
   private:
+    void compare_rows();
     void features(Program& program, const Buffer& luma, const Buffer& words);
 
     StereoLayout layout_;
     int disparities_;
+    PictureKind kind_;
+    int frames_until_comparison_ = 0;
     Program features_program_, shifted_program_, clear_program_, votes_program_;
     Buffer left_features_, right_features_, votes_;
 };

@@ -10,7 +10,7 @@ HalvePass::HalvePass(const ShaderLibrary& library, const StereoLayout& fine)
 
 void HalvePass::run(PassProfiler& profiler, const Buffer& fine_luma) {
     const std::size_t pixels = coarse_.pixels();
-    profiler.run("halve", {pixels * 10, static_cast<double>(pixels) * 24}, [&] {
+    profiler.run("halve", {pixels * 10, static_cast<double>(pixels) * 60}, [&] {
         program_.use();
         program_.set("fine_size", Eigen::Vector2i(fine_.width_px, fine_.height_px));
         program_.set("fine_row_words", fine_.luma_row_words());

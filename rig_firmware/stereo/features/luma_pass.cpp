@@ -37,12 +37,17 @@ void LumaPass::convert(const Texture& picture, const Buffer& luma, std::optional
 
 void LumaPass::run(PassProfiler& profiler, const Texture& left, const Texture& right) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("luma", {pixels * 12, static_cast<double>(pixels) * 24}, [&] {
-        convert(left, left_, left_memory_);
-        convert(right, right_, right_memory_);
-        has_state_ = true;
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    });
+    // Of a stream, the state of both pictures is read and written besides.
+    const std::size_t bytes_per_pixel = left_memory_ ? 28 : 12;
+    const double operations_per_pixel = left_memory_ ? 150 : 63;
+    profiler.run("luma",
+                 {pixels * bytes_per_pixel, static_cast<double>(pixels) * operations_per_pixel},
+                 [&] {
+                     convert(left, left_, left_memory_);
+                     convert(right, right_, right_memory_);
+                     has_state_ = true;
+                     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+                 });
 }
 
 }  // namespace vantage

@@ -36,7 +36,7 @@ void PermeabilityPass::run(PassProfiler& profiler, const Buffer& luma) {
             median_program_.dispatch_over(layout_.luma_row_words(), layout_.height_px, 2);
             glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
         });
-    profiler.run("permeability", {pixels * 6, static_cast<double>(pixels) * 25}, [&] {
+    profiler.run("permeability", {pixels * 6, static_cast<double>(pixels) * 41}, [&] {
         permeability_program_.use();
         permeability_program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
         permeability_program_.set("row_words", layout_.luma_row_words());

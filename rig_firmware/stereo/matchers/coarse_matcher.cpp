@@ -44,7 +44,7 @@ class CoarseMatcher : public EngineMatcher {
                   const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities,
                   const SgmSettings& paths)
         : EngineMatcher(library, settings),
-          features_(library, fine, settings.disparities),
+          features_(library, fine, settings.disparities, picture_kind(settings)),
           halve_(library, fine),
           permeability_(library, coarse, sigma, PermeabilityGuide::plain),
           cost_(library, fine, settings.disparities,
@@ -68,6 +68,7 @@ class CoarseMatcher : public EngineMatcher {
                       halve_.luma(), luma.left());
         return upsample_.disparity();
     }
+    void forget_search() override { features_.forget(); }
     std::size_t search_bytes() const override {
         return features_.gpu_bytes() + halve_.gpu_bytes() + permeability_.gpu_bytes() +
                perm_.gpu_bytes() + paths_.gpu_bytes() + check_.gpu_bytes() + upsample_.gpu_bytes();

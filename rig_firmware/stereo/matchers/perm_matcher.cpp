@@ -9,7 +9,7 @@ class PermMatcher : public EngineMatcher {
   public:
     PermMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
-          features_(library, layout_of(settings), settings.disparities),
+          features_(library, layout_of(settings), settings.disparities, picture_kind(settings)),
           permeability_(library, layout_of(settings), sigma),
           perm_(library, layout_of(settings), settings.disparities),
           check_(library, layout_of(settings), fill_at_full_size(settings)) {}
@@ -26,6 +26,7 @@ class PermMatcher : public EngineMatcher {
         perm_.run(profiler, features_, permeability_);
         return check_.run(profiler, luma.left(), perm_.winners(), &perm_.weight());
     }
+    void forget_search() override { features_.forget(); }
     std::size_t search_bytes() const override {
         return features_.gpu_bytes() + permeability_.gpu_bytes() + perm_.gpu_bytes() +
                check_.gpu_bytes();

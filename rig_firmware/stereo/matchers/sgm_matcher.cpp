@@ -9,7 +9,7 @@ class SgmMatcher : public EngineMatcher {
   public:
     SgmMatcher(const ShaderLibrary& library, const MatchSettings& settings)
         : EngineMatcher(library, settings),
-          features_(library, layout_of(settings), settings.disparities),
+          features_(library, layout_of(settings), settings.disparities, picture_kind(settings)),
           cost_(library, layout_of(settings), settings.disparities, 1),
           paths_(library, layout_of(settings), settings.disparities, {.p1 = 7, .p2 = 50}),
           check_(library, layout_of(settings), fill_at_full_size(settings)) {}
@@ -25,6 +25,7 @@ class SgmMatcher : public EngineMatcher {
         paths_.run(profiler, cost_.costs());
         return check_.run(profiler, luma.left(), paths_.winners(), nullptr);
     }
+    void forget_search() override { features_.forget(); }
     std::size_t search_bytes() const override {
         return features_.gpu_bytes() + cost_.costs().bytes() + paths_.gpu_bytes() +
                check_.gpu_bytes();

@@ -11,7 +11,7 @@ const Texture& DisparityPass::run(const Buffer& keys) {
     Program& program = pass_.use();
     program.set("size", Eigen::Vector2i(disparity_.width_px(), disparity_.height_px()));
     keys.bind_storage(0);
-    pass_.draw(target_);
+    pass_.overwrite(target_);
     return disparity_;
 }
 

@@ -4,6 +4,7 @@
 #include "rig_firmware/stereo/disparity/halved_cost_reference.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/lane_mapping.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
@@ -13,9 +14,10 @@ namespace vantage {
 /// the places of edges above all, stays.
 class HalvedCostPass {
   public:
-    /// disparities: of the full size.
+    /// disparities: of the full size. lanes: changes the time that it takes, and no bit of the
+    /// result.
     HalvedCostPass(const ShaderLibrary& library, const StereoLayout& fine, int disparities,
-                   HalvedCostSamples samples);
+                   HalvedCostSamples samples, LaneMapping lanes = lane_mapping_here());
 
     /// Leaves in `costs` what PermPass takes as PermCosts::given.
     void run(PassProfiler& profiler, const FeaturePass& fine_features, const Buffer& costs);
@@ -24,6 +26,7 @@ class HalvedCostPass {
     StereoLayout fine_;
     int disparities_;
     HalvedCostSamples samples_;
+    LaneMapping lanes_;
     Program program_;
 };
 

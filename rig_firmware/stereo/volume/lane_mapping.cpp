@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "common/gl/context/limits.h"
+
 namespace vantage {
 
 LaneMapping lane_mapping_of(std::string_view renderer) {
@@ -13,5 +15,7 @@ LaneMapping lane_mapping_of(std::string_view renderer) {
                     [&](std::string_view name) { return renderer.starts_with(name); });
     return is_narrow ? LaneMapping::disparities : LaneMapping::pixels;
 }
+
+LaneMapping lane_mapping_here() { return lane_mapping_of(GlInfo::query().renderer); }
 
 }  // namespace vantage

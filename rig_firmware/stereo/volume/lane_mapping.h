@@ -13,6 +13,8 @@ enum class LaneMapping { pixels = 0, disparities = 1 };
 
 /// The one for a GPU, by the name that OpenGL ES gives it.
 LaneMapping lane_mapping_of(std::string_view renderer);
+/// The one for the GPU of the current context.
+LaneMapping lane_mapping_here();
 
 inline ShaderDefines lane_defines(LaneMapping mapping) {
     return {{"LANE_MAPPING", mapping == LaneMapping::disparities ? "1" : "0"}};

@@ -15,6 +15,18 @@ ShaderDefines column_defines(PermOutput output, int valid) {
     return {{"KEEP", output == PermOutput::costs ? "1" : "0"}, {"VALID", std::to_string(valid)}};
 }
 
+/// Walks columns with half a slab an invocation where that suits the GPU.
+bool has_narrow_columns(PermOutput output, LaneMapping lanes) {
+    return output == PermOutput::costs && lanes == LaneMapping::disparities;
+}
+
+Program column_program(const ShaderLibrary& library, PermOutput output, LaneMapping lanes,
+                       int valid) {
+    if (has_narrow_columns(output, lanes))
+        return Program::compute(library, "perm_columns_narrow.comp");
+    return Program::compute(library, "perm_columns.comp", column_defines(output, valid));
+}
+
 ShaderDefines row_defines(PermCosts costs, LaneMapping lanes) {
     ShaderDefines defines = lane_defines(lanes);
     defines.emplace_back("GIVEN", costs == PermCosts::given ? "1" : "0");
@@ -30,10 +42,8 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
       kind_(output),
       lanes_(lanes),
       rows_(Program::compute(library, "perm_rows.comp", row_defines(costs, lanes))),
-      full_columns_(
-          Program::compute(library, "perm_columns.comp", column_defines(output, slab_disparities))),
-      last_columns_(Program::compute(library, "perm_columns.comp",
-                                     column_defines(output, valid_in_last_slab(disparities)))),
+      full_columns_(column_program(library, output, lanes, slab_disparities)),
+      last_columns_(column_program(library, output, lanes, valid_in_last_slab(disparities))),
       weight_rows_(Program::compute(library, "perm_weight.comp", {{"ALONG", "0"}})),
       weight_columns_(Program::compute(
           library, "perm_weight.comp",
@@ -88,7 +98,9 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass* features,
     const double evaluations = static_cast<double>(pixels) * slab_disparities;
     const int row_lanes =
         lanes_ == LaneMapping::disparities ? 2 * layout_.height_px : layout_.height_px;
-    profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 24}, [&] {
+    const int column_lanes =
+        has_narrow_columns(kind_, lanes_) ? 2 * layout_.width_px : layout_.width_px;
+    profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 79}, [&] {
         permeability.along().bind_storage(0);
         weight_.bind_storage(1);
         run_line_pass(weight_rows_, layout_.height_px, 0);
@@ -96,23 +108,24 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass* features,
         run_line_pass(weight_columns_, layout_.stride_px() / 4, 0);
     });
     for (int first = 0; first < disparities_; first += slab_disparities) {
-        profiler.run("cost and rows", {pixels * (16 + 2 * 8 + 24), evaluations * 32}, [&] {
-            (features ? features->left_features() : output_).bind_storage(0);
-            if (features) features->right_features().bind_storage(1);
-            permeability.along().bind_storage(2);
-            volume_.bind_storage(3);
-            down_.bind_storage(4);
-            run_line_pass(rows_, row_lanes, first);
-        });
+        profiler.run("cost and rows",
+                     {pixels * (16 + 2 * 8 + 24), evaluations * (features ? 32 : 10)}, [&] {
+                         (features ? features->left_features() : output_).bind_storage(0);
+                         if (features) features->right_features().bind_storage(1);
+                         permeability.along().bind_storage(2);
+                         volume_.bind_storage(3);
+                         down_.bind_storage(4);
+                         run_line_pass(rows_, row_lanes, first);
+                     });
         profiler.run(
-            "columns and winners", {pixels * (2 * 16 + 2 * 8 + 12 + 16), evaluations * 17}, [&] {
+            "columns and winners", {pixels * (2 * 16 + 2 * 8 + 12 + 16), evaluations * 15}, [&] {
                 permeability.down().bind_storage(0);
                 volume_.bind_storage(1);
                 down_.bind_storage(2);
                 output_.bind_storage(3);
                 weight_.bind_storage(4);
                 const bool is_last = first + slab_disparities >= disparities_;
-                run_line_pass(is_last ? last_columns_ : full_columns_, layout_.width_px, first);
+                run_line_pass(is_last ? last_columns_ : full_columns_, column_lanes, first);
             });
     }
 }

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "common/gl/context/limits.h"
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
 #include "rig_firmware/stereo/disparity/perm_reference.h"
@@ -37,8 +36,7 @@ class PermPass {
     /// largest. `lanes` changes the time that it takes, and no bit of what it leaves.
     PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
              PermOutput output = PermOutput::winners, PermCosts costs = PermCosts::found,
-             int most_code = most_perm_code,
-             LaneMapping lanes = lane_mapping_of(GlInfo::query().renderer));
+             int most_code = most_perm_code, LaneMapping lanes = lane_mapping_here());
 
     void run(PassProfiler& profiler, const FeaturePass& features,
              const PermeabilityPass& permeability);

@@ -6,8 +6,14 @@
 namespace vantage {
 namespace {
 
-/// Rows whose sums lie in memory at once where only rows are walked.
-constexpr int band_rows = 192;
+/// Most rows whose sums lie in memory at once where only rows are walked.
+constexpr int most_band_rows = 256;
+
+/// The rows of a band: bands are equally high, for a low one would leave most of the GPU idle.
+int band_rows(int height_px) {
+    const int bands = (height_px + most_band_rows - 1) / most_band_rows;
+    return (height_px + bands - 1) / bands;
+}
 
 std::size_t volume_size(const StereoLayout& layout, int disparities) {
     return layout.block_pixels() *
@@ -64,7 +70,7 @@ SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int d
     : layout_(layout),
       disparities_(disparities),
       settings_(settings),
-      sum_rows_(settings.columns ? layout.height_px : std::min(layout.height_px, band_rows)),
+      sum_rows_(settings.columns ? layout.height_px : band_rows(layout.height_px)),
       rows_(Program::compute(
           library, "sgm_path.comp",
           path_defines(disparities, settings) + ShaderDefines{{"ALONG", "0"},

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/gl/context/context_loss.h"
 #include "common/gl/context/egl_context.h"
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/objects/framebuffer.h"
@@ -79,6 +80,31 @@ TEST(Fence, IsReachedWithoutAPoint) {
     const Fence none;
     EXPECT_TRUE(none.reached());
     none.hold_current_context();
+}
+
+TEST(Fence, CountsAGpuThatDoesNotFinishInTimeAsLost) {
+    const ShaderFolder folder;
+    folder.write(
+        "long.frag",
+        "uniform int turns;\n"
+        "layout(location = 0) out uint sum;\n"
+        "void main() { sum = 0u; for (int i = 0; i < turns; ++i) sum = sum * 3u + uint(i); }");
+    const EglContext context;
+    const ShaderLibrary library(folder.path());
+    FullscreenPass pass(library, "long.frag");
+    const Texture texture(TextureFormat::r32ui, 512, 512);
+    const Framebuffer target({&texture});
+    pass.use().set("turns", 2000);
+    pass.draw(target);
+    const Fence drawn = Fence::insert();
+    try {
+        drawn.wait("a test drew", std::chrono::microseconds(1));
+        FAIL() << "500 million turns took a microsecond";
+    } catch (const ContextLost& lost) {
+        EXPECT_NE(std::string(lost.what()).find("a test drew"), std::string::npos) << lost.what();
+    }
+    drawn.wait("a test drew");
+    EXPECT_TRUE(drawn.reached());
 }
 
 TEST(Fence, MovesItsPoint) {

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/context/egl_context.h"
+#include "common/rectification/packed_positions.h"
 #include "common/rectification/rectify_reference.h"
 #include "tests/support/thrown_sentence.h"
 
@@ -91,6 +92,37 @@ TEST_P(RectifyPassTest, EqualsItsReferenceOnNoiseForBothSides) {
             rectify_reference(raw, make_rectification_map(calibration, side));
         EXPECT_EQ(cv::norm(on_gpu(calibration, side, raw), expected, cv::NORM_INF), 0);
     }
+}
+
+TEST_P(RectifyPassTest, EqualsItsReferenceWherePositionsAreTooFarToBePacked) {
+    StereoCalibration calibration = calibration_of(GetParam(), 61, 47, 1.0);
+    // The rectified picture is a part of a large one, far from the pixels that it shows.
+    calibration.rectified.width_px = 300;
+    calibration.rectified.cx_left_px += 200;
+    const cv::Mat2f positions = make_rectification_map(calibration, Side::left);
+    ASSERT_FALSE(packed_positions(positions, {61, 47}));
+    const ColourImage raw = random_picture(61, 47);
+    EXPECT_EQ(cv::norm(on_gpu(calibration, Side::left, raw), rectify_reference(raw, positions),
+                       cv::NORM_INF),
+              0);
+}
+
+TEST(PackedPositions, HoldsDistancesAndMarksWhatIsOutside) {
+    cv::Mat2f positions(1, 4);
+    positions(0, 0) = {0.5F, 1.25F};
+    positions(0, 1) = {-1.0F, 0.0F};
+    positions(0, 2) = {std::numeric_limits<float>::quiet_NaN(), 0.0F};
+    positions(0, 3) = {2.0F, 3.0F};
+    const auto words = packed_positions(positions, {10, 10});
+    ASSERT_TRUE(words);
+    const auto word = [](int x_256, int y_256) { return (32768 + x_256) | (32768 + y_256) << 16; };
+    EXPECT_EQ((*words)(0, 0), word(128, 320));
+    EXPECT_EQ((*words)(0, 1), 0);
+    EXPECT_EQ((*words)(0, 2), 0);
+    EXPECT_EQ((*words)(0, 3), word(-256, 768));
+    positions(0, 3) = {131.0F, 3.0F};
+    EXPECT_FALSE(packed_positions(positions, {200, 10})) << "128 px do not fit";
+    EXPECT_TRUE(packed_positions(positions, {100, 10})) << "it is outside, however far";
 }
 
 TEST_P(RectifyPassTest, AgreesWithOpenCvOnASmoothPicture) {

@@ -1,5 +1,8 @@
 #include "rig_firmware/daemon/gpu_stage.h"
 
+#include <algorithm>
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -140,6 +143,39 @@ TEST_F(GpuStageTest, RectifiesWhatIsNot) {
     EXPECT_EQ(cv::norm(result.colour, expected, cv::NORM_INF), 0);
     EXPECT_GT(cv::norm(result.colour, frame_.left, cv::NORM_INF), 20);
     EXPECT_EQ(cv::countNonZero(result.disparity != 96), 0);
+}
+
+TEST_F(GpuStageTest, TellsOfEveryShaderThatItCompilesAndOfNoneLater) {
+    config_.match.matcher.clear();
+    std::vector<std::pair<int, int>> told;
+    GpuStage gpu(config_, ideal_rig(config_, {width, height}), {},
+                 [&](const ProgramProgress& progress) {
+                     told.emplace_back(progress.used, progress.made);
+                     EXPECT_FALSE(progress.file.empty());
+                 });
+    ASSERT_FALSE(told.empty());
+    EXPECT_EQ(told.front(), std::pair(0, 1));
+    EXPECT_GT(told.back().first, 5) << "the dark frame uses the programs of a real one";
+    EXPECT_LE(told.back().first, told.back().second);
+    EXPECT_TRUE(std::ranges::is_sorted(told));
+    const std::size_t count = told.size();
+    gpu.process(frame_);
+    EXPECT_EQ(told.size(), count);
+}
+
+TEST_F(GpuStageTest, TheAutomaticPresetIsTheBestThatHoldsTheRate) {
+    config_.match.matcher.clear();
+    config_.match.preset = "auto";
+    const auto chosen = [&](double rate_hz) {
+        config_.source.rate_hz = rate_hz;
+        const GpuStage gpu(config_, ideal_rig(config_, {width, height}));
+        for (const std::string& line : gpu.report())
+            if (line.starts_with("preset auto")) return line;
+        return std::string();
+    };
+    EXPECT_THAT(chosen(1e-3), testing::HasSubstr("preset auto: quality"));
+    EXPECT_THAT(chosen(1e9), testing::AllOf(testing::HasSubstr("preset auto: fast"),
+                                            testing::HasSubstr("no preset holds this rate")));
 }
 
 TEST_F(GpuStageTest, TakesExactDisparityOnlyWhereThereIsSome) {

@@ -18,8 +18,11 @@
 
 #include "common/base/error.h"
 #include "common/base/files/unique_fd.h"
+#include "common/image/image_file.h"
 #include "common/receive/stage_receiver.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/gpu_reset.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -117,6 +120,58 @@ TEST(RigDaemon, SaysItsRateFromItsFirstWordOn) {
     EXPECT_EQ(onlooker.status().rigs[0].sync.rate_hz, config.source.rate_hz);
 }
 
+TEST(RigDaemon, ServesHostsBeforeTheGpuIsSetUp) {
+    RigConfig config = small_rig();
+    // Only found out once there is a context: the virtual stage lends no buffers.
+    config.source.buffers = "import";
+    RigDaemon daemon(config);
+    EXPECT_NE(daemon.endpoint(), "");
+    while (daemon.running()) std::this_thread::sleep_for(5ms);
+    EXPECT_THAT(thrown_sentence([&] { daemon.rethrow_failure(); }),
+                testing::HasSubstr("'buffers = \"import\"'"));
+}
+
+TEST(RigDaemon, RefusesAMatcherThatThereIsNotAtOnce) {
+    RigConfig config = small_rig();
+    config.match.matcher = "psychic";
+    EXPECT_THAT(thrown_sentence([&] { const RigDaemon daemon(config); }),
+                testing::HasSubstr("no matcher named 'psychic'"));
+}
+
+TEST(RigDaemon, SetsTheGpuUpAnewAfterAResetAndCountsIt) {
+    // Pictures from files: the virtual stage has a context of its own, which would be lost as well.
+    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "gpu_reset";
+    std::filesystem::create_directories(folder);
+    ColourImage picture(47, 61);
+    cv::RNG(3).fill(picture, cv::RNG::UNIFORM, 0, 255);
+    RigConfig config = small_rig();
+    config.source.kind = "files";
+    config.source.left = folder / "left.png";
+    config.source.right = folder / "right.png";
+    write_colour_image(config.source.left, picture);
+    write_colour_image(config.source.right, picture);
+    config.match.preset = "fast";
+    RigDaemon daemon(config);
+    const auto restarts = [&] {
+        for (const SourceCounter& counter : daemon.status().source_counters)
+            if (counter.name == "gpu_restarts") return counter.count;
+        return std::uint64_t{0};
+    };
+    const auto published = [&] { return daemon.status().publisher.counters.published; };
+    while (daemon.running() && published() == 0) std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(restarts(), 0u);
+    reset_gpu();
+    while (daemon.running() && restarts() == 0) std::this_thread::sleep_for(5ms);
+    const std::uint64_t before = published();
+    while (daemon.running() && published() < before + 3) std::this_thread::sleep_for(5ms);
+    EXPECT_TRUE(daemon.running());
+    EXPECT_EQ(restarts(), 1u);
+    daemon.stop();
+    daemon.rethrow_failure();
+    const RigCounters counters = daemon.status().publisher.counters;
+    EXPECT_EQ(counters.captured, counters.published + counters.late);
+}
+
 TEST(RigDaemon, CanBeStoppedAtAnyTime) {
     for (const auto after : {0ms, 3ms, 40ms, 150ms}) {
         RigDaemon daemon(small_rig());
@@ -134,6 +189,8 @@ TEST_P(StuckThread, IsNamed) {
     config.source.rate_hz = 20;
     const std::set<int> before = threads();
     RigDaemon daemon(config);
+    // A shader may take long to compile; the thread is not stuck meanwhile.
+    while (!daemon.status().starting.empty()) std::this_thread::sleep_for(5ms);
     EXPECT_EQ(daemon.stuck_worker(1h), "");
     {
         const HeldThread held(GetParam(), before);

@@ -14,6 +14,7 @@
 #include "rig_firmware/stereo/disparity/result_pass.h"
 #include "rig_firmware/stereo/disparity/row_fill_pass.h"
 #include "rig_firmware/stereo/disparity/row_fill_reference.h"
+#include "rig_firmware/stereo/disparity/sgm_reference.h"
 #include "rig_firmware/stereo/disparity/smooth_pass.h"
 #include "rig_firmware/stereo/disparity/support_pass.h"
 #include "rig_firmware/stereo/disparity/support_reference.h"
@@ -22,11 +23,14 @@
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/features/halve_pass.h"
 #include "rig_firmware/stereo/volume/halved_cost_pass.h"
+#include "rig_firmware/stereo/volume/perm_cost_pass.h"
 #include "rig_firmware/stereo/volume/perm_pass.h"
 #include "tests/unit/rig_firmware/stereo/engine_buffers.h"
 
 namespace vantage {
 namespace {
+
+constexpr LaneMapping lane_mappings[] = {LaneMapping::pixels, LaneMapping::disparities};
 
 class EnginePassesTest : public EnginePassTest {
   protected:
@@ -98,10 +102,12 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
                  "checked disparity of flat valleys");
 
     const DisparityImage supported = supported_disparity(checked.disparity);
-    SupportPass support(library_, layout_);
-    support.run(profiler_, check.disparity(), check.scratch());
-    expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(supported),
-                 "supported");
+    for (const LaneMapping lanes : lane_mappings) {
+        SupportPass support(library_, layout_, lanes);
+        support.run(profiler_, check.disparity(), check.scratch());
+        expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(supported),
+                     "supported");
+    }
 
     RowFillPass row_fill(library_, layout_);
     row_fill.run(profiler_, check.disparity(), check.scratch());
@@ -115,11 +121,14 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(filled),
                  "filled along paths");
 
-    SmoothPass smooth(library_, layout_);
-    smooth.run(profiler_, check.scratch());
-    const cv::Mat1i smooth_words = channel_of(check.scratch(), layout_, 1, 0);
     const DisparityImage smoothed = smoothed_where_near(filled);
-    expect_equal(lower_half(smooth_words), as_int(smoothed), "smoothed");
+    for (const LaneMapping lanes : lane_mappings) {
+        path_fill.run(profiler_, luma.left(), check.disparity(), check.scratch());
+        SmoothPass smooth(library_, layout_, disparity_steps_per_px, lanes);
+        smooth.run(profiler_, check.scratch());
+        expect_equal(lower_half(channel_of(check.scratch(), layout_, 1, 0)), as_int(smoothed),
+                     "smoothed");
+    }
     EXPECT_GT(cv::norm(smoothed, filled, cv::NORM_L1), 0) << "nothing was there to be smoothed";
 
     MedianPass median(library_, layout_);
@@ -244,13 +253,14 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
         return feature_words(even);
     };
     for (const HalvedCostSamples samples : {HalvedCostSamples::one, HalvedCostSamples::two})
-        for (const int most_code : {most_perm_code, 69}) {
+        for (const LaneMapping lanes : lane_mappings) {
+            const int most_code = samples == HalvedCostSamples::one ? most_perm_code : 69;
             const std::vector<cv::Mat1b> costs =
                 halved_costs(words_of_even_width(left_), words_of_even_width(right_),
                              GetParam().disparities, samples);
-            HalvedCostPass cost(library_, layout_, GetParam().disparities, samples);
+            HalvedCostPass cost(library_, layout_, GetParam().disparities, samples, lanes);
             PermPass perm(library_, half, static_cast<int>(costs.size()), PermOutput::costs,
-                          PermCosts::given, most_code);
+                          PermCosts::given, most_code, lanes);
             cost.run(profiler_, features, perm.costs());
             expect_equal_costs(perm.costs(), half, costs, ByteOrder::of_sums);
             perm.run(profiler_, permeabilities);
@@ -259,6 +269,72 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
                 perm_costs(costs, permeability_of(halved(left_), permeability_table(sigma)),
                            most_code));
         }
+}
+
+TEST_P(EnginePassesTest, CostsThatAreComputedBeforeTheirAggregationLeaveTheSameBits) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    right.upload(pair_.right);
+    LumaPass luma(library_, layout_);
+    luma.run(profiler_, left, right);
+    FeaturePass features(library_, layout_, GetParam().disparities);
+    features.run(profiler_, luma);
+    PermeabilityPass permeabilities(library_, layout_, 8);
+    permeabilities.run(profiler_, luma.left());
+    PermPass perm(library_, layout_, GetParam().disparities, PermOutput::costs, PermCosts::given,
+                  most_perm_code, LaneMapping::disparities);
+    PermCostPass cost(library_, layout_, GetParam().disparities);
+    cost.run(profiler_, features, perm.costs());
+    const cv::Mat1i left_words = channel_of(features.left_features(), layout_, 1, 0),
+                    right_words = channel_of(features.right_features(), layout_, 1, 0);
+    expect_equal_costs(perm.costs(), layout_,
+                       sgm_costs(left_words, right_words, GetParam().disparities, 1),
+                       ByteOrder::of_sums);
+    perm.run(profiler_, permeabilities);
+    expect_equal_costs(
+        perm.costs(), layout_,
+        perm_costs(left_words, right_words, permeability_of(guide_of(left_), permeability_table(8)),
+                   GetParam().disparities));
+}
+
+TEST(RowShiftOfAStream, IsComparedSeldomAndAnewAfterForget) {
+    const EglContext context;
+    const ShaderLibrary library;
+    constexpr int width = 320, height = 128, disparities = 16;
+    const StereoLayout layout{width, height};
+    const TexturedPair pair = textured_pair(width, height);
+    ColourImage lower(pair.right.size());
+    for (int y = 0; y < height; ++y) pair.right.row(std::max(y - 1, 0)).copyTo(lower.row(y));
+    PassProfiler profiler;
+    LumaPass luma(library, layout), luma_lower(library, layout);
+    Texture left(TextureFormat::rgba8, width, height), right(TextureFormat::rgba8, width, height);
+    left.upload(pair.left);
+    right.upload(pair.right);
+    luma.run(profiler, left, right);
+    Texture right_lower(TextureFormat::rgba8, width, height);
+    right_lower.upload(lower);
+    luma_lower.run(profiler, left, right_lower);
+
+    FeaturePass of_single(library, layout, disparities);
+    const auto words = [&](const FeaturePass& pass) {
+        return channel_of(pass.right_features(), layout, 1, 0);
+    };
+    of_single.run(profiler, luma_lower);
+    const cv::Mat1i put_right = words(of_single);
+
+    FeaturePass of_stream(library, layout, disparities, PictureKind::of_stream);
+    of_stream.run(profiler, luma);
+    for (int frame = 1; frame < FeaturePass::row_shift_period_frames; ++frame)
+        of_stream.run(profiler, luma_lower);
+    EXPECT_GT(cv::norm(words(of_stream), put_right, cv::NORM_L1), 0)
+        << "rows were compared although the period had not passed";
+    of_stream.run(profiler, luma_lower);
+    expect_equal(words(of_stream), put_right, "after the period");
+    of_stream.run(profiler, luma);
+    of_stream.forget();
+    of_stream.run(profiler, luma_lower);
+    expect_equal(words(of_stream), put_right, "after forget()");
 }
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, EnginePassesTest,
