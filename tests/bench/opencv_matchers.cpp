@@ -4,7 +4,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "rig_firmware/stereo/disparity/row_fill_reference.h"
+#include "tests/references/stereo/row_fill_reference.h"
 
 namespace vantage {
 

@@ -2,11 +2,18 @@
 
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
-#include "rig_firmware/stereo/disparity/left_right_reference.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
+
+/// Shape of the costs around a minimum, which decides how the sub-pixel position is computed from
+/// the three lowest costs.
+enum class Valley {
+    sharp,  ///< two straight lines of equal steepness, as absolute differences give
+    flat,   ///< HalvedCostPass's, which takes the least of three disparities: flat, then rising, so
+            ///< that straight lines would meet too far from the middle
+};
 
 /// Left-right consistency, sub-pixel position and confidence. The right picture's disparity is what
 /// the best of the left pixels that claim a right pixel says; a left pixel whose claim lost by more

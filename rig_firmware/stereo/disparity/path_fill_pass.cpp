@@ -21,7 +21,7 @@ PathFillPass::PathFillPass(const ShaderLibrary& library, const StereoLayout& lay
       make_cells_(program_of(library, "path_fill_cells.comp", cell)),
       island_rows_(Program::compute(library, "path_fill_island_rows.comp")),
       island_columns_(Program::compute(library, "path_fill_island_columns.comp",
-                                       {{"LEAST_AREA", std::to_string(least_island_cells) + "u"}})),
+                                       {{"LEAST_AREA", std::to_string(min_island_cells) + "u"}})),
       first_rows_(program_of(library, "path_fill_rows.comp", cell)),
       columns_(program_of(library, "path_fill_columns.comp", cell)),
       last_rows_(program_of(library, "path_fill_rows.comp", cell, {{"LAST", "1"}})),

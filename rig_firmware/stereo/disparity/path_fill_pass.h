@@ -2,11 +2,18 @@
 
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
-#include "rig_firmware/stereo/disparity/path_fill_reference.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
+
+/// Side of the square cells in which PathFillPass works.
+enum class FillCell { one_px, two_px };
+constexpr int px_of(FillCell cell) { return cell == FillCell::one_px ? 1 : 2; }
+
+/// Smallest island, in cells, that is spread. An island's size is an estimate: runs of neighbours
+/// within a pixel of each other along the rows, added up along the columns.
+inline constexpr int min_island_cells = 32;
 
 /// Makes disparity dense, in cells of some pixels: what stands alone (a small island) is put aside,
 /// and what is known spreads along the paths on which the picture changes least, but only to where

@@ -2,7 +2,7 @@
 
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
-#include "rig_firmware/stereo/disparity/smooth_reference.h"
+#include "common/image/image.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/volume/lane_mapping.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"

@@ -8,9 +8,9 @@ StreakPass::StreakPass(const ShaderLibrary& library, const StereoLayout& layout,
     : layout_(layout),
       program_(Program::compute(library, "row_streaks.comp",
                                 {{"DISPARITIES", std::to_string(disparities)},
-                                 {"MOST_ROWS", std::to_string(most_streak_rows)},
-                                 {"MOST_GAIN", std::to_string(most_streak_gain) + "u"},
-                                 {"LEAST_VALLEY", std::to_string(least_streak_valley) + "u"}})) {}
+                                 {"MOST_ROWS", std::to_string(max_streak_rows)},
+                                 {"MOST_GAIN", std::to_string(max_streak_gain) + "u"},
+                                 {"LEAST_VALLEY", std::to_string(min_streak_valley) + "u"}})) {}
 
 void StreakPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& costs) {
     const std::size_t pixels = layout_.pixels();

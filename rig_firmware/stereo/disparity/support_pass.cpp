@@ -2,7 +2,6 @@
 
 #include <string>
 
-#include "rig_firmware/stereo/disparity/support_reference.h"
 #include "rig_firmware/stereo/volume/four_by_eight.h"
 
 namespace vantage {
@@ -14,7 +13,7 @@ SupportPass::SupportPass(const ShaderLibrary& library, const StereoLayout& layou
                                       lanes == LaneMapping::disparities
                                           ? "supported_disparity_narrow.comp"
                                           : "supported_disparity.comp",
-                                      {{"LEAST_VOTES", std::to_string(least_support_votes)}})) {}
+                                      {{"LEAST_VOTES", std::to_string(min_support)}})) {}
 
 void SupportPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& supported) {
     const std::size_t pixels = layout_.pixels();

@@ -12,6 +12,9 @@ namespace vantage {
 /// spread what an occluded stripe matched by chance.
 class SupportPass {
   public:
+    /// Pixels of 25, itself among them, that must be within a pixel of a disparity for it to stay.
+    static constexpr int min_support = 12;
+
     /// lanes: changes the time that it takes, and no bit of the result.
     SupportPass(const ShaderLibrary& library, const StereoLayout& layout,
                 LaneMapping lanes = lane_mapping_here());

@@ -2,19 +2,17 @@
 
 #include <string>
 
-#include "rig_firmware/stereo/disparity/temporal_reference.h"
-
 namespace vantage {
 
 TemporalPass::TemporalPass(const ShaderLibrary& library, int width_px, int height_px)
     : exposure_(library),
       pass_(library, "temporal_disparity.frag",
-            {{"MOST_CHANGE", std::to_string(most_still_change)},
-             {"MOST_HOLDING_CHANGE", std::to_string(most_holding_change)},
-             {"MOST_STEP", std::to_string(most_agreeing_step)},
-             {"VOTES", std::to_string(agreeing_votes)},
-             {"FIRST_VOTES", std::to_string(first_votes)},
-             {"MOST_VOTES", std::to_string(most_votes)}}),
+            {{"MOST_CHANGE", std::to_string(max_still_change)},
+             {"MOST_HOLDING_CHANGE", std::to_string(max_holding_change)},
+             {"MOST_STEP", std::to_string(max_consistent_step)},
+             {"VOTES", std::to_string(consistent_score)},
+             {"FIRST_VOTES", std::to_string(first_score)},
+             {"MOST_VOTES", std::to_string(max_score)}}),
       denoised_(TextureFormat::r16ui, width_px, height_px),
       states_{Texture(TextureFormat::r32ui, width_px, height_px),
               Texture(TextureFormat::r32ui, width_px, height_px)},

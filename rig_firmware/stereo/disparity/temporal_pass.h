@@ -16,6 +16,17 @@ namespace vantage {
 /// leaves no trail. An exposure that drifts, or leaps, is no change of the picture.
 class TemporalPass {
   public:
+    /// Largest change of a still pixel: the sum over the five pixels of a cross of the differences
+    /// from their running means, in grey levels. A sensor noise of 2 grey levels makes 6.
+    static constexpr int max_still_change = 40;
+    /// Likewise, where the mean is kept although the new disparity differs from it.
+    static constexpr int max_holding_change = 20;
+    /// Largest difference of consistent disparities, in 1/1024 px.
+    static constexpr int max_consistent_step = 1536;
+    /// A pixel's score: what a consistent frame adds (an inconsistent one subtracts 1), the score
+    /// of a disparity that has just replaced another one, and the largest score.
+    static constexpr int consistent_score = 2, first_score = 4, max_score = 15;
+
     TemporalPass(const ShaderLibrary& library, int width_px, int height_px);
 
     /// disparity: r16ui as Matcher::match gives it; picture: rgba8, the left picture of the same

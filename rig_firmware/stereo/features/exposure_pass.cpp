@@ -10,15 +10,14 @@ constexpr int group_lanes = 64;
 }  // namespace
 
 ExposurePass::ExposurePass(const ShaderLibrary& library)
-    : program_(
-          Program::compute(library, "exposure_gain.comp",
-                           {{"LANES", std::to_string(group_lanes)},
-                            {"COLUMNS", std::to_string(ExposureReference::columns)},
-                            {"ROWS", std::to_string(ExposureReference::rows)},
-                            {"MOST_FIRST_STEP", std::to_string(ExposureReference::most_first_step)},
-                            {"MOST_STEP", std::to_string(ExposureReference::most_step)},
-                            {"LEAST_CHANGE", std::to_string(ExposureReference::least_change)}})),
-      exposure_((1 + ExposureReference::columns * ExposureReference::rows) * 4, GL_DYNAMIC_COPY) {}
+    : program_(Program::compute(library, "exposure_gain.comp",
+                                {{"LANES", std::to_string(group_lanes)},
+                                 {"COLUMNS", std::to_string(columns)},
+                                 {"ROWS", std::to_string(rows)},
+                                 {"MOST_FIRST_STEP", std::to_string(max_first_change)},
+                                 {"MOST_STEP", std::to_string(max_change)},
+                                 {"LEAST_CHANGE", std::to_string(min_gain_change)}})),
+      exposure_((1 + columns * rows) * 4, GL_DYNAMIC_COPY) {}
 
 void ExposurePass::run(const Texture& picture) {
     program_.use();

@@ -4,7 +4,6 @@
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/texture.h"
 #include "common/gl/shader_library.h"
-#include "rig_firmware/stereo/disparity/exposure_reference.h"
 
 namespace vantage {
 
@@ -12,6 +11,14 @@ namespace vantage {
 /// exposure and lamps do to all of a picture, found among what stands still in it.
 class ExposurePass {
   public:
+    /// Size of the grid of samples over the picture.
+    static constexpr int columns = 32, rows = 24;
+    /// Largest change of a sample that counts as still, in grey levels: against the previous
+    /// picture as it was, then against it after the first estimate of the gain.
+    static constexpr int max_first_change = 24, max_change = 8;
+    /// Smaller changes of the gain, in 1/4096, are noise and count as none.
+    static constexpr int min_gain_change = 8;
+
     explicit ExposurePass(const ShaderLibrary& library);
 
     /// picture: rgba8.

@@ -3,7 +3,6 @@
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/texture.h"
-#include "rig_firmware/stereo/disparity/feature_reference.h"
 #include "rig_firmware/stereo/features/luma_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"

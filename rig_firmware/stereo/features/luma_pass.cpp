@@ -2,15 +2,13 @@
 
 #include <string>
 
-#include "rig_firmware/stereo/features/stream_average.h"
-
 namespace vantage {
 
 LumaPass::LumaPass(const ShaderLibrary& library, const StereoLayout& layout, PictureKind kind)
     : layout_(layout),
       program_(Program::compute(library, "stereo_luma.comp",
                                 {{"OF_STREAM", kind == PictureKind::of_stream ? "1" : "0"},
-                                 {"MOST_NOISE", std::to_string(StreamAverage::most_noise)}})),
+                                 {"MOST_NOISE", std::to_string(max_noise)}})),
       left_(layout.luma_words() * 2 * 4, GL_DYNAMIC_COPY),
       right_(layout.luma_words() * 2 * 4, GL_DYNAMIC_COPY) {
     if (kind == PictureKind::single) return;

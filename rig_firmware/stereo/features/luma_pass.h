@@ -16,9 +16,14 @@ enum class PictureKind { single, of_stream };
 
 /// Luma of both pictures and behind it, in a plane of its own, their colour: half of red - blue,
 /// from 128 up. Four pixels a word (see StereoLayout).
-/// Of a stream, what stands still is averaged along time (StreamAverage), against sensor noise.
+/// In a stream, still pixels are averaged over time against sensor noise: the value moves a half, a
+/// quarter, at last an eighth of the way to the new one.
 class LumaPass {
   public:
+    /// Largest distance of a still pixel from its mean, in grey levels: five times a sensor noise
+    /// of 2.
+    static constexpr int max_noise = 10;
+
     LumaPass(const ShaderLibrary& library, const StereoLayout& layout,
              PictureKind kind = PictureKind::single);
 

@@ -1,6 +1,7 @@
 #include "rig_firmware/stereo/features/permeability_pass.h"
 
-#include "rig_firmware/stereo/disparity/feature_reference.h"
+#include <algorithm>
+#include <cmath>
 
 namespace vantage {
 namespace {
@@ -11,6 +12,14 @@ std::size_t row_groups(const StereoLayout& layout) {
 }
 
 }  // namespace
+
+PermeabilityTable permeability_table(double sigma) {
+    PermeabilityTable table{};
+    for (std::size_t step = 0; step < table.size(); ++step)
+        table[step] = static_cast<std::uint32_t>(
+            std::clamp(std::lround(16 * std::exp(-static_cast<double>(step) / sigma)), 0L, 15L));
+    return table;
+}
 
 PermeabilityPass::PermeabilityPass(const ShaderLibrary& library, const StereoLayout& layout,
                                    double sigma, PermeabilityGuide guide)

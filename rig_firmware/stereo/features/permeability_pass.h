@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 
 #include "common/gl/objects/buffer.h"
@@ -9,7 +11,12 @@
 
 namespace vantage {
 
-/// What permeability looks at.
+/// The share of a sum, in sixteenths, that passes a step of 0..255 levels of the guide (that of
+/// luma plus half of that of colour): 16 exp(-step / sigma), at most 15.
+using PermeabilityTable = std::array<std::uint32_t, 256>;
+PermeabilityTable permeability_table(double sigma);
+
+/// The image whose steps stop the sums.
 enum class PermeabilityGuide {
     median,  ///< the 3x3 median of the picture, which takes its noise out and leaves its edges
     plain,   ///< the picture itself: where it was halved, most noise is out of it already

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "rig_firmware/stereo/disparity/halved_cost_reference.h"
 #include "rig_firmware/stereo/disparity/upsample_pass.h"
 #include "rig_firmware/stereo/engine_matcher.h"
 #include "rig_firmware/stereo/features/halve_pass.h"
@@ -51,7 +50,7 @@ class CoarseMatcher : public EngineMatcher {
                 settings.preset == MatchPreset::fast ? HalvedCostSamples::one
                                                      : HalvedCostSamples::two),
           perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given,
-                std::min(paths.most_cost(), most_perm_code)),
+                std::min(paths.most_cost(), max_perm_code)),
           paths_(library, coarse, coarse_disparities, paths, perm_.large_scratch(),
                  perm_.small_scratch()),
           check_(library, coarse, fill_of(settings), Valley::flat, disparity_steps_per_px / 2),

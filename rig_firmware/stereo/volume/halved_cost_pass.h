@@ -1,13 +1,19 @@
 #pragma once
 
 #include "common/gl/objects/program.h"
-#include "rig_firmware/stereo/disparity/halved_cost_reference.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/volume/lane_mapping.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
+
+/// Number of half-size disparities: d stands for the full-size 2d - 1 .. 2d + 1.
+constexpr int halved_disparities(int disparities) { return (disparities + 1) / 2; }
+
+/// Which full-size pixels of each 2x2 are compared: the upper right one, or the mean of that and
+/// the lower left one.
+enum class HalvedCostSamples { one, two };
 
 /// Matching costs on a grid of half the size (a quarter of the pixels, half of the disparities)
 /// from the full-size pictures' words: what halving the pictures first would lose, thin things and

@@ -4,7 +4,6 @@
 
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
-#include "rig_firmware/stereo/disparity/perm_reference.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/features/permeability_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
@@ -12,6 +11,10 @@
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
+
+/// Largest cost of PermOutput::costs for two semi-global paths. Four paths need smaller ones,
+/// because the sum of three has to fit a byte.
+inline constexpr int max_perm_code = 80;
 
 /// What PermPass leaves.
 enum class PermOutput {
@@ -36,7 +39,7 @@ class PermPass {
     /// largest. `lanes` changes the time that it takes, and no bit of what it leaves.
     PermPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
              PermOutput output = PermOutput::winners, PermCosts costs = PermCosts::found,
-             int most_code = most_perm_code, LaneMapping lanes = lane_mapping_here());
+             int most_code = max_perm_code, LaneMapping lanes = lane_mapping_here());
 
     void run(PassProfiler& profiler, const FeaturePass& features,
              const PermeabilityPass& permeability);

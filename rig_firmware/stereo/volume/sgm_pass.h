@@ -4,12 +4,21 @@
 
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
-#include "rig_firmware/stereo/disparity/sgm_reference.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
+
+/// Penalties of path aggregation.
+struct SgmSettings {
+    int p1 = 4;           ///< for a step of one disparity
+    int p2 = 20;          ///< for any larger step
+    bool columns = true;  ///< four paths; false: only the two along the row
+
+    /// Largest input cost: sums of three paths must fit a byte, and one path's value seven bits.
+    int most_cost() const { return columns ? 85 - p2 : 127 - p2; }
+};
 
 /// Matching cost of every pixel and disparity, as SgmPass takes it.
 class SgmCostPass {

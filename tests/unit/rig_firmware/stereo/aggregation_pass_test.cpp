@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "rig_firmware/stereo/thesis/aggregation_reference.h"
-#include "rig_firmware/stereo/thesis/discontinuity_reference.h"
+#include "tests/references/thesis/aggregation_reference.h"
+#include "tests/references/thesis/discontinuity_reference.h"
 #include "tests/unit/rig_firmware/stereo/thesis_buffers.h"
 
 namespace vantage::thesis {

@@ -14,9 +14,9 @@
 #include "common/gl/shader_library.h"
 #include "common/image/image.h"
 #include "common/image/image_file.h"
-#include "rig_firmware/stereo/disparity/feature_reference.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
+#include "tests/references/stereo/feature_reference.h"
 
 namespace vantage {
 

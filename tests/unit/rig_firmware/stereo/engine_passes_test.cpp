@@ -3,28 +3,29 @@
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
-#include "rig_firmware/stereo/disparity/halved_cost_reference.h"
 #include "rig_firmware/stereo/disparity/left_right_pass.h"
-#include "rig_firmware/stereo/disparity/left_right_reference.h"
 #include "rig_firmware/stereo/disparity/median_pass.h"
-#include "rig_firmware/stereo/disparity/median_reference.h"
 #include "rig_firmware/stereo/disparity/path_fill_pass.h"
-#include "rig_firmware/stereo/disparity/path_fill_reference.h"
-#include "rig_firmware/stereo/disparity/perm_reference.h"
 #include "rig_firmware/stereo/disparity/result_pass.h"
 #include "rig_firmware/stereo/disparity/row_fill_pass.h"
-#include "rig_firmware/stereo/disparity/row_fill_reference.h"
-#include "rig_firmware/stereo/disparity/sgm_reference.h"
 #include "rig_firmware/stereo/disparity/smooth_pass.h"
 #include "rig_firmware/stereo/disparity/support_pass.h"
-#include "rig_firmware/stereo/disparity/support_reference.h"
 #include "rig_firmware/stereo/disparity/upsample_pass.h"
-#include "rig_firmware/stereo/disparity/upsample_reference.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/features/halve_pass.h"
 #include "rig_firmware/stereo/volume/halved_cost_pass.h"
 #include "rig_firmware/stereo/volume/perm_cost_pass.h"
 #include "rig_firmware/stereo/volume/perm_pass.h"
+#include "tests/references/stereo/halved_cost_reference.h"
+#include "tests/references/stereo/left_right_reference.h"
+#include "tests/references/stereo/median_reference.h"
+#include "tests/references/stereo/path_fill_reference.h"
+#include "tests/references/stereo/perm_reference.h"
+#include "tests/references/stereo/row_fill_reference.h"
+#include "tests/references/stereo/sgm_reference.h"
+#include "tests/references/stereo/smooth_reference.h"
+#include "tests/references/stereo/support_reference.h"
+#include "tests/references/stereo/upsample_reference.h"
 #include "tests/unit/rig_firmware/stereo/engine_buffers.h"
 
 namespace vantage {
@@ -83,7 +84,7 @@ TEST_P(EnginePassesTest, AgreeWithTheirCpuFormsBitForBit) {
     expect_equal(bits_of(beside, 0, 12), winners.cost_after, "cost after");
 
     PermPass other_lanes(library_, layout_, GetParam().disparities, PermOutput::winners,
-                         PermCosts::found, most_perm_code, LaneMapping::disparities);
+                         PermCosts::found, max_perm_code, LaneMapping::disparities);
     other_lanes.run(profiler_, features, permeabilities);
     for (const int word : {0, 1})
         expect_equal(winners_channel(other_lanes.winners(), layout_, word),
@@ -254,7 +255,7 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
     };
     for (const HalvedCostSamples samples : {HalvedCostSamples::one, HalvedCostSamples::two})
         for (const LaneMapping lanes : lane_mappings) {
-            const int most_code = samples == HalvedCostSamples::one ? most_perm_code : 69;
+            const int most_code = samples == HalvedCostSamples::one ? max_perm_code : 69;
             const std::vector<cv::Mat1b> costs =
                 halved_costs(words_of_even_width(left_), words_of_even_width(right_),
                              GetParam().disparities, samples);
@@ -283,7 +284,7 @@ TEST_P(EnginePassesTest, CostsThatAreComputedBeforeTheirAggregationLeaveTheSameB
     PermeabilityPass permeabilities(library_, layout_, 8);
     permeabilities.run(profiler_, luma.left());
     PermPass perm(library_, layout_, GetParam().disparities, PermOutput::costs, PermCosts::given,
-                  most_perm_code, LaneMapping::disparities);
+                  max_perm_code, LaneMapping::disparities);
     PermCostPass cost(library_, layout_, GetParam().disparities);
     cost.run(profiler_, features, perm.costs());
     const cv::Mat1i left_words = channel_of(features.left_features(), layout_, 1, 0),

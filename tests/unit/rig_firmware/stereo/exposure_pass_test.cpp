@@ -8,6 +8,7 @@
 
 #include "common/gl/context/egl_context.h"
 #include "common/image/image_file.h"
+#include "tests/references/stereo/exposure_reference.h"
 
 namespace vantage {
 namespace {

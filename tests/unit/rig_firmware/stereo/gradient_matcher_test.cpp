@@ -4,7 +4,7 @@
 
 #include "common/image/image_file.h"
 #include "rig_firmware/stereo/matcher.h"
-#include "rig_firmware/stereo/thesis/gradient_reference.h"
+#include "tests/references/thesis/gradient_reference.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/rig_firmware/stereo/thesis_buffers.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rig_firmware/stereo/features/stream_average.h"
+#include "tests/references/stereo/stream_average.h"
 #include "tests/unit/rig_firmware/stereo/engine_buffers.h"
 
 namespace vantage {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "rig_firmware/stereo/disparity/path_fill_reference.h"
 #include "rig_firmware/stereo/features/luma_pass.h"
+#include "tests/references/stereo/path_fill_reference.h"
 #include "tests/unit/rig_firmware/stereo/engine_buffers.h"
 
 namespace vantage {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tests/references/stereo/smooth_reference.h"
 #include "tests/unit/rig_firmware/stereo/engine_buffers.h"
 
 namespace vantage {

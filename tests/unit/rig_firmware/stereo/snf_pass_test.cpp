@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "rig_firmware/stereo/thesis/snf_reference.h"
+#include "tests/references/thesis/snf_reference.h"
 #include "tests/unit/rig_firmware/stereo/thesis_buffers.h"
 
 namespace vantage::thesis {

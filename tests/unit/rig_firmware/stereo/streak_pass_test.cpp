@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rig_firmware/stereo/volume/perm_pass.h"
+#include "tests/references/stereo/streak_reference.h"
 #include "tests/unit/rig_firmware/stereo/engine_buffers.h"
 
 namespace vantage {
@@ -29,23 +30,23 @@ struct StreakScene {
 };
 
 TEST(WithoutStreaks, MakesABarUnknownWhereTheWallLooksHardlyWorse) {
-    const StreakScene scene(10, most_streak_rows, most_streak_gain);
+    const StreakScene scene(10, max_streak_rows, max_streak_gain);
     const DisparityImage result = without_streaks(scene.disparity, scene.costs);
-    EXPECT_EQ(cv::countNonZero(result == 0), 30 * most_streak_rows);
-    EXPECT_EQ(cv::countNonZero(result == wall), 40 * 60 - 30 * most_streak_rows);
+    EXPECT_EQ(cv::countNonZero(result == 0), 30 * max_streak_rows);
+    EXPECT_EQ(cv::countNonZero(result == wall), 40 * 60 - 30 * max_streak_rows);
 }
 
 TEST(WithoutStreaks, LeavesWhatIsThinAndTrulyBeforeTheWall) {
-    EXPECT_EQ(StreakScene(20, 3, most_streak_gain + 1).left_of_bar(), 30 * 3);
-    StreakScene bare(20, 3, most_streak_gain);
-    bare.costs[wall_px + 3] = most_streak_gain + least_streak_valley - 1;
+    EXPECT_EQ(StreakScene(20, 3, max_streak_gain + 1).left_of_bar(), 30 * 3);
+    StreakScene bare(20, 3, max_streak_gain);
+    bare.costs[wall_px + 3] = max_streak_gain + min_streak_valley - 1;
     EXPECT_EQ(bare.left_of_bar(), 30 * 3) << "the wall is no match of its own there";
-    bare.costs[wall_px + 3] = most_streak_gain + least_streak_valley;
+    bare.costs[wall_px + 3] = max_streak_gain + min_streak_valley;
     EXPECT_EQ(bare.left_of_bar(), 0);
 }
 
 TEST(WithoutStreaks, LeavesWhatIsHigherOrHasNotOneSurfaceAboveAndBelow) {
-    EXPECT_EQ(StreakScene(10, most_streak_rows + 1, 0).left_of_bar(), 30 * (most_streak_rows + 1));
+    EXPECT_EQ(StreakScene(10, max_streak_rows + 1, 0).left_of_bar(), 30 * (max_streak_rows + 1));
     EXPECT_EQ(StreakScene(0, 4, 0).left_of_bar(), 30 * 4) << "at the picture's edge";
     EXPECT_EQ(StreakScene(36, 4, 0).left_of_bar(), 30 * 4);
     StreakScene step(20, 4, 0);

@@ -8,8 +8,8 @@
 
 #include "common/gl/context/egl_context.h"
 #include "common/image/image_file.h"
-#include "rig_firmware/stereo/disparity/temporal_reference.h"
 #include "tests/bench/filmed_pair.h"
+#include "tests/references/stereo/temporal_reference.h"
 
 namespace vantage {
 namespace {
