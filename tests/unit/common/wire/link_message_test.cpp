@@ -66,8 +66,16 @@ TEST(LinkMessage, RigMessageRoundTrips) {
     sent.sync.ptp_state = "SLAVE";
     sent.sync.ptp_offset_ns = -12.5;
     sent.sync.rate_hz = 29.97;
-    sent.health = {61.5f,  true,    30, 29.5f, "0123456789abcdef", "2026-10-02T11:12:13Z",
-                   0.125f, "0.2.0", 900};
+    sent.health = {61.5f,
+                   true,
+                   30,
+                   29.5f,
+                   "0123456789abcdef",
+                   "2026-10-02T11:12:13Z",
+                   0.125f,
+                   "0.2.0",
+                   900,
+                   "compiling shaders, 7 of 21"};
     const RigMessage got = decode_rig_message(encode(sent));
     EXPECT_EQ(got.rig, sent.rig);
     EXPECT_EQ(got.session, sent.session);
