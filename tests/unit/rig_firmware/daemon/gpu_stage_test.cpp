@@ -26,6 +26,7 @@ class GpuStageTest : public testing::Test {
         ColourImage wide(height, width + 5);
         random.fill(wide, cv::RNG::UNIFORM, 0, 255);
         cv::GaussianBlur(wide, wide, {5, 5}, 1.5);
+        for (cv::Vec4b& pixel : wide) pixel[3] = 255;  // raw pictures are opaque
         frame_.left = wide.colRange(0, width).clone();
         frame_.right = wide.colRange(5, width + 5).clone();
         frame_.trigger_index = 77;
