@@ -121,7 +121,7 @@ ColourImage steps() {
     sheet.add("a rig's picture", views[shown_rig].colour);
     sheet.add("its own depth", depth_picture(views[shown_rig].depth_m));
     sheet.add("1: matte", grey_picture(performers.matte->share.texture().download()));
-    sheet.add("1: the set behind", opaque(performers.set->colour().download()));
+    sheet.add("1: the background behind", opaque(performers.background->colour().download()));
     sheet.add("2-5: depth, refined", depth_picture(depth_of(rig)));
     sheet.add("6, 7: which rig shows what", origins);
     sheet.add("7-9: what rigs see", without_inpainted(rendered));
