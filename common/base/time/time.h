@@ -64,8 +64,9 @@ inline MonotonicTime monotonic_from_ns(std::int64_t ns) {
     return MonotonicTime(std::chrono::nanoseconds(ns));
 }
 
-/// Sleeps until the absolute time on CLOCK_TAI (clock_nanosleep, TIMER_ABSTIME); returns at once if
-/// it has passed.
+/// Sleeps until the absolute time on CLOCK_TAI; returns at once if it has passed. Never sleeps longer
+/// than the time that was left when it was called: if CLOCK_TAI is set back meanwhile, it returns
+/// before the deadline.
 void sleep_until(TaiTime deadline);
 
 }  // namespace vantage
