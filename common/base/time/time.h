@@ -64,9 +64,8 @@ inline MonotonicTime monotonic_from_ns(std::int64_t ns) {
     return MonotonicTime(std::chrono::nanoseconds(ns));
 }
 
-/// Sleeps until the absolute time on CLOCK_TAI; returns at once if it has passed. Never sleeps longer
-/// than the time that was left when it was called: if CLOCK_TAI is set back meanwhile, it returns
-/// before the deadline.
+/// Sleeps until the absolute time on CLOCK_TAI; returns at once if it has passed. It returns early
+/// if CLOCK_TAI is set back: it never sleeps longer than was left at the call.
 void sleep_until(TaiTime deadline);
 
 }  // namespace vantage
