@@ -18,7 +18,8 @@ void check_printable(std::string_view what, std::string_view text) {
 
 /// The length of a refusal, and of a fetch's trouble.
 constexpr std::size_t max_refusal_chars = 512;
-constexpr std::size_t max_date_chars = 40, max_version_chars = 40, max_starting_chars = 120;
+constexpr std::size_t max_date_chars = 40, max_version_chars = 40, max_starting_chars = 120,
+                      max_keeps_chars = 512;
 
 void to_wire(const RigHealth& health, wire::Health& out) {
     if (health.temperature_c) out.set_temperature_c(*health.temperature_c);
@@ -31,6 +32,7 @@ void to_wire(const RigHealth& health, wire::Health& out) {
     out.set_program_version(health.program_version.substr(0, max_version_chars));
     out.set_refused_connections(health.refused_connections);
     out.set_starting(health.starting.substr(0, max_starting_chars));
+    out.set_keeps(health.keeps.substr(0, max_keeps_chars));
 }
 
 RigHealth from_wire(const wire::Health& in) {
@@ -51,6 +53,10 @@ RigHealth from_wire(const wire::Health& in) {
         fail("a rig describes its start in {} characters, beyond the limit of {}",
              in.starting().size(), max_starting_chars);
     check_printable("description of a start", in.starting());
+    if (in.keeps().size() > max_keeps_chars)
+        fail("a line of {} characters about kept takes is beyond the limit of {}",
+             in.keeps().size(), max_keeps_chars);
+    check_printable("line about kept takes", in.keeps());
     RigHealth health;
     if (in.has_temperature_c()) health.temperature_c = in.temperature_c();
     health.under_voltage = in.under_voltage();
@@ -62,6 +68,7 @@ RigHealth from_wire(const wire::Health& in) {
     health.program_version = in.program_version();
     health.refused_connections = in.refused_connections();
     health.starting = in.starting();
+    health.keeps = in.keeps();
     return health;
 }
 

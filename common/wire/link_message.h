@@ -60,6 +60,7 @@ struct RigHealth {
     /// What the rig still does before it can send frames, "compiling shaders, 7 of 21"; empty when
     /// it is ready.
     std::string starting;
+    std::string keeps;  ///< one line about the rig's own recording and its erasures; empty: none
 
     bool operator==(const RigHealth&) const = default;
 };
