@@ -1,6 +1,8 @@
 #include "common/wire/link_message.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "common/base/error.h"
@@ -32,7 +34,12 @@ void to_wire(const RigHealth& health, wire::Health& out) {
     out.set_program_version(health.program_version.substr(0, max_version_chars));
     out.set_refused_connections(health.refused_connections);
     out.set_starting(health.starting.substr(0, max_starting_chars));
-    out.set_keeps(health.keeps.substr(0, max_keeps_chars));
+    std::string keeps = health.keeps.substr(0, max_keeps_chars);
+    // A folder's name may hold control characters, or UTF-8 that the cut splits.
+    constexpr char first_printable = ' ', del = 0x7f;
+    std::replace_if(
+        keeps.begin(), keeps.end(), [](char c) { return c < first_printable || c == del; }, '?');
+    out.set_keeps(keeps);
 }
 
 RigHealth from_wire(const wire::Health& in) {
