@@ -6,8 +6,8 @@
 #include <thread>
 #include <utility>
 
-#include "common/base/files/descriptor_limit.h"
 #include "common/base/error.h"
+#include "common/base/files/descriptor_limit.h"
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
 #include "common/config/endpoint.h"

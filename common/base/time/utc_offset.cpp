@@ -9,7 +9,7 @@ std::optional<int> take_utc_offset(std::string& text) {
         text.pop_back();
         return 0;
     }
-    // A date has '-' too: the offset stands behind the time, which has colons.
+    // A date contains '-' too. The offset follows the time, which has colons.
     const std::size_t sign = text.find_last_of("+-");
     if (sign == std::string::npos || text.find(':') >= sign) return std::nullopt;
     std::string digits = text.substr(sign + 1);

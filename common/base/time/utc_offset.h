@@ -5,8 +5,9 @@
 
 namespace vantage {
 
-/// Takes "Z", "+01:00", "-0330" or "+01" off the end of a time of day, as ISO 8601 writes how far
-/// the time is ahead of UTC. Seconds ahead; nothing: there is none, and `text` stays as it is.
+/// Removes "Z", "+01:00", "-0330" or "+01" from the end of a time of day, as ISO 8601 writes the
+/// offset from UTC. Returns the seconds ahead of UTC; nothing if there is no offset, and `text` is
+/// unchanged.
 std::optional<int> take_utc_offset(std::string& text);
 
 }  // namespace vantage
