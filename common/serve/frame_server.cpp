@@ -9,9 +9,12 @@
 #include <vector>
 #include <zmq_addon.hpp>
 
+#include <fmt/ranges.h>
+
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/config/endpoint.h"
+#include "common/config/socket_address.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/limits.h"
 #include "common/wire/zmq_helpers.h"
@@ -36,6 +39,21 @@ std::string host_key_of(zmq::message_t& part) { return property_of(part, "User-I
 std::string address_of(zmq::message_t& part) {
     const std::string address = property_of(part, "Peer-Address");
     return address.empty() ? "an unknown address" : address;
+}
+
+/// The addresses of the host, as ZeroMQ takes them: of a name it binds one only, or takes it for
+/// that of a network device. A name that does not resolve may be one.
+std::vector<std::string> hosts_of(const Endpoint& wanted, const std::string& what) {
+    if (wanted.host == "*" || wanted.ipv6) return {wanted.host};
+    std::vector<std::string> hosts;
+    try {
+        constexpr int any_port = 1;
+        for (const SocketAddress& address : resolve_all(wanted.host, any_port, what))
+            hosts.push_back(address.host());
+    } catch (const Error&) {
+        return {wanted.host};
+    }
+    return hosts;
 }
 
 }  // namespace
@@ -76,7 +94,7 @@ void FrameServer::bind(const Settings& settings) {
     router_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_header_bytes));
     router_.set(zmq::sockopt::handshake_ivl, option_ms(StrangerWatch::handshake_limit));
     watch_for_dead_connections(router_);
-    router_.set(zmq::sockopt::ipv6, wanted.ipv6);
+    const std::vector<std::string> hosts = hosts_of(wanted, settings.bind_option);
     if (!settings.key_file.empty()) {
         const CurveKeys keys = load_key_file(settings.key_file);
         public_key_ = keys.public_key;
@@ -89,15 +107,30 @@ void FrameServer::bind(const Settings& settings) {
         fail("{} = \"{}\" can be reached from other computers, which needs keys",
              settings.bind_option, settings.bind);
     }
-    try {
-        router_.bind(wanted.text());
-    } catch (const zmq::error_t& error) {
-        if (error.num() == EADDRINUSE)
-            fail("port {} of {} is in use by another program; end it or choose another {}",
-                 wanted.port, wanted.host, settings.bind_option);
-        fail("{} = \"{}\" cannot be bound: {}", settings.bind_option, settings.bind, error.what());
+    std::string port = wanted.port, failures;
+    for (const std::string& host : hosts) {
+        try {
+            router_.set(zmq::sockopt::ipv6, host.starts_with('['));
+            router_.bind(fmt::format("tcp://{}:{}", host, port));
+        } catch (const zmq::error_t& error) {
+            if (error.num() == EADDRINUSE)
+                fail("port {} of {} is in use by another program; end it or choose another {}",
+                     port, host, settings.bind_option);
+            failures += fmt::format("{}{} ({})", failures.empty() ? "" : ", ", host, error.what());
+            continue;
+        }
+        const std::string bound = router_.get(zmq::sockopt::last_endpoint);
+        if (endpoint_.empty()) endpoint_ = bound;
+        // The other addresses get the port that the first one was given.
+        port = bound.substr(bound.rfind(':') + 1);
     }
-    endpoint_ = router_.get(zmq::sockopt::last_endpoint);
+    if (endpoint_.empty())
+        fail("{} = \"{}\" cannot be bound: {}", settings.bind_option, settings.bind, failures);
+    if (!failures.empty())
+        log_info("{} = \"{}\" is not bound at {}", settings.bind_option, settings.bind, failures);
+    if (hosts.size() > 1)
+        log_info("{} = \"{}\" is bound at {}", settings.bind_option, settings.bind,
+                 fmt::join(hosts, " and "));
 }
 
 void FrameServer::run() {
