@@ -88,7 +88,8 @@ void check_attempts(const std::vector<ListenAttempt>& attempts, const std::strin
                                     attempt.address.text(), std::strerror(attempt.error));
     }
     if (!listens || is_taken)
-        fail("{}: cannot listen on {}; choose another port, or end the program using it", what, failures);
+        fail("{}: cannot listen on {}; choose another port, or end the program using it", what,
+             failures);
     if (!failures.empty()) log_info("{}: does not listen on {}", what, failures);
 }
 
