@@ -12,6 +12,7 @@
 #include <imgui.h>
 
 #include "common/base/error.h"
+#include "common/base/library_log.h"
 #include "common/base/log.h"
 #include "common/gl/context/limits.h"
 #include "host_app/control/table/control_command.h"
@@ -75,6 +76,10 @@ int number_of_key(const ControlCommand& command, int key, bool with_control) {
 }  // namespace
 
 GlfwLibrary::GlfwLibrary() {
+    glfwSetErrorCallback([](int, const char* message) {
+        static LibraryLog log("GLFW", LogLevel::debug);
+        log.note(message ? message : "");
+    });
     if (!glfwInit())
         fail("cannot open a window ({}); use --headless to write the flight to files",
              glfw_reason());

@@ -56,7 +56,7 @@ class FreedPort final : public ControlPort {
         const FreedReading reading = read_freed(bytes);
         const std::optional<FreedCamera>& message = reading.camera;
         if (!message) {
-            refuse(&PortStats::malformed, reading.fault);
+            refuse_input("FreeD", bytes, reading.fault);
             return;
         }
         if (camera_ && message->id != *camera_) {

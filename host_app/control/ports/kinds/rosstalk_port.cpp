@@ -67,10 +67,14 @@ class RossTalkPort final : public ControlPort {
     void obey(const std::string& line, MonotonicTime now) {
         const RossTalkLine said = parse_rosstalk(line);
         if (!said.order) {
-            refuse(said.is_known ? &PortStats::malformed : &PortStats::unknown,
-                   fmt::format("'{}' is {}", printable(line),
-                               said.is_known ? "not GPI n or XPT D:S as RossTalk has it"
-                                             : "no command that is taken"));
+            const std::string sentence =
+                fmt::format("'{}' is {}", printable(line),
+                            said.is_known ? "not GPI n or XPT D:S as RossTalk has it"
+                                          : "no command that is taken");
+            if (said.is_known)
+                refuse_input("RossTalk", std::as_bytes(std::span(line)), sentence);
+            else
+                refuse(&PortStats::unknown, sentence);
             return;
         }
         const CommandCall* call = map_.find(*said.order);

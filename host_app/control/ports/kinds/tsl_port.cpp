@@ -32,8 +32,8 @@ class TslPort : public ControlPort {
     void take(std::span<const std::byte> bytes) {
         const std::optional<std::vector<TslDisplay>> displays = decode_tsl(bytes);
         if (!displays) {
-            refuse(&PortStats::malformed,
-                   fmt::format("{} bytes that are no TSL UMD 3.1 or 5.0", bytes.size()));
+            refuse_input("TSL", bytes,
+                         fmt::format("{} bytes that are no TSL UMD 3.1, 4.0 or 5.0", bytes.size()));
             return;
         }
         // Mixers tell every display about every other; that is no fault.
