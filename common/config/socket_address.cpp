@@ -6,6 +6,7 @@
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
+#include <ifaddrs.h>
 #include <netdb.h>
 #include <sys/socket.h>
 
@@ -62,7 +63,10 @@ std::vector<SocketAddress> resolve_all(std::string host, int port, const std::st
     addrinfo hints{}, *found = nullptr;
     hints.ai_socktype = SOCK_STREAM;
     const int error = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found);
-    if (error != 0) fail("{}: nobody knows the host {} ({})", what, host, gai_strerror(error));
+    const std::string begin = what.empty() ? "" : what + ": ";
+    if (error != 0)
+        fail("{}the name {} does not resolve ({}): check its spelling and this computer's DNS",
+             begin, host, gai_strerror(error));
     std::vector<SocketAddress> addresses;
     for (const addrinfo* each = found; each; each = each->ai_next) {
         if (each->ai_family != AF_INET && each->ai_family != AF_INET6) continue;
@@ -73,8 +77,24 @@ std::vector<SocketAddress> resolve_all(std::string host, int port, const std::st
             addresses.push_back(address);
     }
     freeaddrinfo(found);
-    if (addresses.empty()) fail("{}: the host {} has no IPv4 or IPv6 address", what, host);
+    if (addresses.empty()) fail("{}the host {} has no IPv4 or IPv6 address", begin, host);
     return addresses;
+}
+
+std::vector<std::string> own_addresses() {
+    std::vector<std::string> all;
+    ifaddrs* list = nullptr;
+    if (getifaddrs(&list) != 0) return all;
+    for (const ifaddrs* each = list; each; each = each->ifa_next) {
+        const int family = each->ifa_addr ? each->ifa_addr->sa_family : AF_UNSPEC;
+        if (family != AF_INET && family != AF_INET6) continue;
+        SocketAddress address;
+        address.size = family == AF_INET6 ? sizeof(sockaddr_in6) : sizeof(sockaddr_in);
+        std::memcpy(&address.bytes, each->ifa_addr, address.size);
+        all.push_back(fmt::format("{} {}", each->ifa_name, address.host()));
+    }
+    freeifaddrs(list);
+    return all;
 }
 
 void check_attempts(const std::vector<ListenAttempt>& attempts, const std::string& what) {

@@ -20,26 +20,30 @@ struct SocketAddress {
     bool is_multicast() const;
     /// 0.0.0.0 or [::].
     bool is_any() const;
-    /// The same computer, at another port.
+    /// The same address with another port.
     SocketAddress with_port(std::uint16_t port) const;
     /// "127.0.0.1", "[::1]".
     std::string host() const;
-    /// With its port behind it.
+    /// "127.0.0.1:5600", "[::1]:5600".
     std::string text() const;
 };
 
-/// Every address of a host, which may be a name or an address, with or without brackets, in the
-/// order of the system's resolver. Throws Error, naming `what`, for a host that nobody knows.
-std::vector<SocketAddress> resolve_all(std::string host, int port, const std::string& what);
+/// Returns every address of a host, in the order of the system's resolver. `host` is a name or an
+/// address, with or without brackets. Throws Error for a name that does not resolve; its sentence
+/// begins with `what`, unless that is empty.
+std::vector<SocketAddress> resolve_all(std::string host, int port, const std::string& what = "");
 
-/// Of what could not listen anywhere: each address with its reason.
+/// The addresses of this computer, "eth0 10.0.0.2", for bug reports.
+std::vector<std::string> own_addresses();
+
+/// An address of a name at which a socket was opened.
 struct ListenAttempt {
     SocketAddress address;
-    int error = 0;  ///< errno; 0: it listens
+    int error = 0;  ///< errno; 0: it succeeded
 };
-/// Logs the addresses of a name at which nothing can listen, such as IPv6 where there is none.
-/// Throws Error, naming `what` and every address, if none listens or one is taken by another
-/// program.
+/// Logs the addresses of a name at which no socket can listen, such as IPv6 on a computer without
+/// it. Throws Error, naming `what` and every address, if none listens, or if one is in use by
+/// another program.
 void check_attempts(const std::vector<ListenAttempt>& attempts, const std::string& what);
 
 }  // namespace vantage

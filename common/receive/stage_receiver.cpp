@@ -16,6 +16,7 @@
 #include "common/base/files/descriptor_limit.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
+#include "common/base/refused_inputs.h"
 #include "common/base/this_thread.h"
 #include "common/base/time/kernel_clock.h"
 #include "common/base/time/time.h"
@@ -117,7 +118,8 @@ struct StageReceiver::Impl {
 
         // Guarded by Impl::mutex.
         RigStatus status;
-        bool relay_answers = false;  ///< a relay answers for the rig, with its reason
+        bool relay_answers = false;     ///< a relay answers for the rig, with its reason
+        std::string answering_address;  ///< of its host name, as a probe found; empty: none yet
         std::uint64_t undecodable_frames = 0;
         RigLink::Request request;
         std::shared_ptr<const std::string> report;
@@ -193,10 +195,13 @@ struct StageReceiver::Impl {
                 hand_over(*rig, std::move(*delivery));
             }
             RigLink::Request request;
+            std::string other_address;
             {
                 const std::lock_guard lock(mutex);
                 request = rig->request;
+                if (!rig->status.connected) other_address = rig->answering_address;
             }
+            if (!other_address.empty()) rig->link.use_address(other_address);
             request.unhandled = rig->unhandled;
             request.first_pulse = first_pulse;
             rig->link.tick(request, now);
@@ -257,13 +262,14 @@ struct StageReceiver::Impl {
 
     /// Diagnoses why a rig is not connected.
     void probe(Rig& rig) {
-        std::string reason = why_unreachable(rig.endpoint, probe_limit);
+        auto [address, reason] = reach(rig.endpoint, probe_limit);
         if (reason.empty())
             reason = fmt::format(
                 "something at {} accepts connections but does not speak Vantage's "
                 "protocol",
                 rig.endpoint.text());
         const std::lock_guard lock(mutex);
+        if (!address.empty()) rig.answering_address = std::move(address);
         if (!rig.status.connected && !rig.relay_answers) rig.status.unreachable = std::move(reason);
     }
 
@@ -298,6 +304,7 @@ struct StageReceiver::Impl {
             try {
                 decode(number, decoder, *delivery);
             } catch (const std::exception& error) {
+                note_refused_input("frame", delivery->frame->header, error.what());
                 const std::lock_guard lock(mutex);
                 ++rig.undecodable_frames;
                 rig.status.last_error = error.what();

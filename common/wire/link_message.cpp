@@ -117,6 +117,7 @@ std::vector<std::byte> encode(const HostMessage& message) {
         fetch.set_granted(message.fetch->granted);
     }
     out.set_report_id(message.report_id);
+    if (message.tai_offset_s) out.set_tai_offset_s(*message.tai_offset_s);
     return serialise(out);
 }
 
@@ -136,6 +137,7 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
                         in.streaming(), in.rate_divisor(), in.first_pulse(), in.raw_pairs()};
     if (in.has_fetch()) message.fetch = from_wire(in.fetch());
     message.report_id = in.report_id();
+    if (in.has_tai_offset_s()) message.tai_offset_s = in.tai_offset_s();
     return message;
 }
 

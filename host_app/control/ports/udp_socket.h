@@ -15,7 +15,7 @@
 
 namespace vantage {
 
-/// The first address of the place. Throws Error, naming `what`, for a host that nobody knows.
+/// The first address of the place. Throws Error, naming `what`, for a name that does not resolve.
 SocketAddress resolve(const NetworkPlace& place, const std::string& what);
 
 /// A UDP socket that never waits when it sends.
