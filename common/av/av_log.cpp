@@ -4,10 +4,13 @@
 #include <cstdarg>
 #include <utility>
 
+#include <dlfcn.h>
+
 extern "C" {
 #include <libavutil/log.h>
 }
 
+#include "common/base/library_log.h"
 #include "common/base/log.h"
 
 namespace vantage {
@@ -27,9 +30,34 @@ void keep(void* source, int level, const char* format, va_list words) {
     remark = std::move(text);
 }
 
+/// Receives the messages of libsrt on its threads. Refused callers cause four every 10 ms.
+void keep_srt_message(void*, int, const char*, int, const char*, const char* message) {
+    static LibraryLog log("libsrt", LogLevel::warning);
+    log.note(message ? message : "");
+}
+
+/// FFmpeg loads libsrt and has no function for its log, so the functions are looked up by name.
+void keep_srt_log() {
+    using Handler = void(void*, int, const char*, int, const char*, const char*);
+    auto* const set_handler =
+        reinterpret_cast<void (*)(void*, Handler*)>(dlsym(RTLD_DEFAULT, "srt_setloghandler"));
+    auto* const set_flags = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "srt_setlogflags"));
+    // Leaves out the time, the thread, the severity and the end of the line.
+    constexpr int text_alone = 1 | 2 | 4 | 8;
+    if (set_flags) set_flags(text_alone);
+    if (set_handler) set_handler(nullptr, keep_srt_message);
+}
+
 }  // namespace
 
-void keep_av_log() { av_log_set_callback(keep); }
+void keep_av_log() {
+    static const bool is_kept = [] {
+        av_log_set_callback(keep);
+        keep_srt_log();
+        return true;
+    }();
+    (void)is_kept;
+}
 
 std::string take_av_remark() { return std::exchange(remark, {}); }
 

@@ -52,7 +52,12 @@ Endpoint parse_endpoint(std::string_view text, std::string_view key) {
     if (endpoint.host.starts_with('[') && endpoint.host.ends_with(']')) {
         endpoint.ipv6 = true;
         in6_addr address{};
-        const std::string inner = endpoint.host.substr(1, endpoint.host.size() - 2);
+        std::string inner = endpoint.host.substr(1, endpoint.host.size() - 2);
+        // A link-local address names its network device: fe80::1%eth0.
+        if (const std::size_t scope = inner.find('%'); scope != std::string::npos) {
+            if (!is_host(inner.substr(scope + 1))) refuse();
+            inner.resize(scope);
+        }
         if (inet_pton(AF_INET6, inner.c_str(), &address) != 1) refuse();
         endpoint.loopback = IN6_IS_ADDR_LOOPBACK(&address);
     } else {

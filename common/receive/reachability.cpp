@@ -1,26 +1,26 @@
 #include "common/receive/reachability.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <memory>
+#include <vector>
 
 #include <fmt/format.h>
-#include <netdb.h>
 #include <poll.h>
 #include <sys/socket.h>
 
+#include "common/base/error.h"
 #include "common/base/files/unique_fd.h"
+#include "common/config/socket_address.h"
 
 namespace vantage {
 namespace {
 
 /// Tries to connect to an address. Returns 0, or errno.
-int try_address(const addrinfo& address, std::chrono::milliseconds limit) {
-    const UniqueFd fd(::socket(address.ai_family,
-                               address.ai_socktype | SOCK_NONBLOCK | SOCK_CLOEXEC,
-                               address.ai_protocol));
+int try_address(const SocketAddress& address, std::chrono::milliseconds limit) {
+    const UniqueFd fd(::socket(address.family(), SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     if (!fd) return errno;
-    if (::connect(fd.get(), address.ai_addr, address.ai_addrlen) == 0) return 0;
+    if (::connect(fd.get(), address.get(), address.size) == 0) return 0;
     if (errno != EINPROGRESS) return errno;
     pollfd wait{fd.get(), POLLOUT, 0};
     if (::poll(&wait, 1, static_cast<int>(limit.count())) <= 0) return ETIMEDOUT;
@@ -30,36 +30,50 @@ int try_address(const addrinfo& address, std::chrono::milliseconds limit) {
     return error;
 }
 
-}  // namespace
+/// The endpoint, and in brackets the addresses of its name.
+std::string words_of(const Endpoint& endpoint, const std::vector<ListenAttempt>& attempts) {
+    std::string words;
+    for (const ListenAttempt& attempt : attempts)
+        words += (words.empty() ? "" : ", ") + attempt.address.host();
+    return words == endpoint.host ? endpoint.text()
+                                  : fmt::format("{} ({})", endpoint.text(), words);
+}
 
-std::string why_unreachable(const Endpoint& endpoint, std::chrono::milliseconds limit) {
-    addrinfo wanted{};
-    wanted.ai_family = endpoint.ipv6 ? AF_UNSPEC : AF_INET;
-    wanted.ai_socktype = SOCK_STREAM;
-    // IPv6 addresses are in brackets.
-    const std::string host = endpoint.host.starts_with('[')
-                                 ? endpoint.host.substr(1, endpoint.host.size() - 2)
-                                 : endpoint.host;
-    addrinfo* found = nullptr;
-    if (const int error = ::getaddrinfo(host.c_str(), endpoint.port.c_str(), &wanted, &found))
-        return fmt::format(
-            "the name {} does not resolve ({}): check its spelling and this computer's DNS", host,
-            ::gai_strerror(error));
-    const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> addresses(found, &::freeaddrinfo);
-    int error = 0;
-    for (const addrinfo* address = found; address; address = address->ai_next)
-        if (error = try_address(*address, limit); error == 0) return {};
-    if (error == ECONNREFUSED)
+std::string reason_of(const Endpoint& endpoint, const std::vector<ListenAttempt>& attempts) {
+    const auto all_failed_with = [&](int error) {
+        return std::all_of(attempts.begin(), attempts.end(),
+                           [&](const ListenAttempt& attempt) { return attempt.error == error; });
+    };
+    if (all_failed_with(ECONNREFUSED))
         return fmt::format(
             "connection refused at {}: the computer is up, but vantage-rig does not run "
             "there, or uses another port",
-            endpoint.text());
-    if (error == ETIMEDOUT)
+            words_of(endpoint, attempts));
+    if (all_failed_with(ETIMEDOUT))
         return fmt::format(
             "nothing answers at {}: check that its computer is on, the cable and the firewall "
             "open?",
-            endpoint.text());
-    return fmt::format("{} cannot be reached: {}", endpoint.text(), std::strerror(error));
+            words_of(endpoint, attempts));
+    std::string failures;
+    for (const ListenAttempt& attempt : attempts)
+        failures += fmt::format("{}{}: {}", failures.empty() ? "" : ", ", attempt.address.host(),
+                                std::strerror(attempt.error));
+    return fmt::format("{} cannot be reached ({})", endpoint.text(), failures);
+}
+
+}  // namespace
+
+Reachability reach(const Endpoint& endpoint, std::chrono::milliseconds limit) {
+    std::vector<ListenAttempt> attempts;
+    try {
+        for (const SocketAddress& address : resolve_all(endpoint.host, std::stoi(endpoint.port))) {
+            attempts.push_back({address, try_address(address, limit)});
+            if (attempts.back().error == 0) return {"tcp://" + address.text(), ""};
+        }
+    } catch (const Error& error) {
+        return {"", error.what()};
+    }
+    return {"", reason_of(endpoint, attempts)};
 }
 
 }  // namespace vantage

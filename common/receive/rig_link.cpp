@@ -7,6 +7,8 @@
 #include <zmq_addon.hpp>
 
 #include "common/base/error.h"
+#include "common/base/refused_inputs.h"
+#include "common/base/time/kernel_clock.h"
 #include "common/config/endpoint.h"
 #include "common/wire/limits.h"
 #include "common/wire/random_id.h"
@@ -54,13 +56,13 @@ RigLink::RigLink(zmq::context_t& context, const StageConfig::Rig& rig,
             "rig {} has a public_key, so this host needs a key of its own: set key_file (make one "
             "with: vantage keys new FILE)",
             rig.name);
+    address_ = endpoint.text();
     open();
 }
 
 RigLink::~RigLink() { close(); }
 
 void RigLink::open() {
-    const Endpoint endpoint = parse_endpoint(rig_.endpoint, "endpoint");
     socket_ = zmq::socket_t(context_, zmq::socket_type::dealer);
     socket_.set(zmq::sockopt::linger, 0);
     // Nothing is queued for an absent rig: the request is sent again when it is back.
@@ -72,7 +74,7 @@ void RigLink::open() {
     socket_.set(zmq::sockopt::reconnect_ivl_max, option_ms(longest_reconnect_wait));
     socket_.set(zmq::sockopt::connect_timeout, option_ms(connect_limit));
     watch_for_dead_connections(socket_);
-    socket_.set(zmq::sockopt::ipv6, endpoint.ipv6);
+    socket_.set(zmq::sockopt::ipv6, address_.find('[') != std::string::npos);
     if (!rig_.public_key.empty()) {
         socket_.set(zmq::sockopt::curve_serverkey, rig_.public_key);
         socket_.set(zmq::sockopt::curve_publickey, host_keys_->public_key);
@@ -85,11 +87,19 @@ void RigLink::open() {
     monitor_.set(zmq::sockopt::linger, 0);
     monitor_.connect(events);
     try {
-        socket_.connect(endpoint.text());
+        socket_.connect(address_);
     } catch (const zmq::error_t& error) {
         fail("endpoint of rig {} = \"{}\" cannot be connected to: {}", rig_.name, rig_.endpoint,
              error.what());
     }
+}
+
+void RigLink::use_address(const std::string& address) {
+    if (address == address_) return;
+    address_ = address;
+    reopen_.reset();
+    close();
+    open();
 }
 
 void RigLink::close() {
@@ -109,6 +119,7 @@ std::optional<RigLink::Delivery> RigLink::receive(MonotonicTime now) {
         } catch (const Error& error) {
             ++view_.malformed;
             view_.last_error = error.what();
+            note_refused_input("rig message", bytes_of(parts.front()), error.what());
         }
     }
 }
@@ -241,6 +252,8 @@ void RigLink::tick(const Request& request, MonotonicTime now) {
     message.raw_pairs = request.raw_pairs;
     message.fetch = request.fetch;
     message.report_id = request.report_id;
+    if (now >= next_heartbeat_) own_tai_offset_s_ = read_kernel_clock().tai_offset_s;
+    message.tai_offset_s = own_tai_offset_s_;
     if (now < next_heartbeat_ && message == told_) return;
     // ZeroMQ refuses the message while the rig is absent; the next heartbeat tries again.
     const std::vector<std::byte> bytes = encode(message);

@@ -84,6 +84,10 @@ class RigLink {
     /// retry period is over.
     void tick(const Request& request, MonotonicTime now);
 
+    /// Connects to this address of the rig's host name, "tcp://[::1]:5600", in place of the one
+    /// that ZeroMQ chose. Does nothing if it is connected to that address already.
+    void use_address(const std::string& address);
+
     View view(MonotonicTime now) const;
 
   private:
@@ -94,6 +98,7 @@ class RigLink {
 
     zmq::context_t& context_;
     StageConfig::Rig rig_;
+    std::string address_;  ///< that it connects to: the rig's endpoint, or an address of its name
     std::optional<CurveKeys> host_keys_;
     std::uint64_t host_id_;
     zmq::socket_t socket_;
@@ -105,6 +110,7 @@ class RigLink {
     std::optional<MonotonicTime> reopen_;
     MonotonicTime next_heartbeat_{};
     HostMessage told_;
+    std::optional<int> own_tai_offset_s_;
 };
 
 }  // namespace vantage

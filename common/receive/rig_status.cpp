@@ -57,9 +57,10 @@ std::string clock_step_text(const RigSync& sync) {
 }
 
 std::string tai_warning(const RigStatus& rig) {
-    if (rig.same_clock || rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
+    if (rig.sync.tai_offset_s == rig.own_tai_offset_s) return {};
     return fmt::format(
-        "its TAI offset from UTC is {} s and this computer's is {} s: set the same on both",
+        "its TAI offset from UTC is {} s and this computer's is {} s: set it at the end that has 0 "
+        "(ptp4l with phc2sys, or chrony with leapsectz), or at neither",
         rig.sync.tai_offset_s, rig.own_tai_offset_s);
 }
 

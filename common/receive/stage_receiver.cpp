@@ -13,8 +13,10 @@
 
 #include "common/base/bounded_queue.h"
 #include "common/base/error.h"
+#include "common/base/files/descriptor_limit.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
+#include "common/base/refused_inputs.h"
 #include "common/base/this_thread.h"
 #include "common/base/time/kernel_clock.h"
 #include "common/base/time/time.h"
@@ -42,10 +44,24 @@ constexpr std::size_t max_closed_sets = 4;
 /// (docs/results/scale.md).
 constexpr std::size_t rigs_a_network_thread = 8;
 
+/// Open files that a host needs: for each rig the sockets of ZeroMQ and their monitors, and for
+/// everything else.
+constexpr std::size_t descriptors_a_rig = 8, descriptors_of_a_host = 48;
+
+/// Checks the limit of open files before ZeroMQ starts, which aborts if it cannot open its own.
+int network_threads(const StageConfig& stage) {
+    require_descriptors(descriptors_of_a_host + descriptors_a_rig * stage.rigs.size(),
+                        fmt::format("a stage of {} rigs", stage.rigs.size()));
+    return static_cast<int>(1 + stage.rigs.size() / rigs_a_network_thread);
+}
+
 /// When a disconnected rig is probed first, and how often after that.
 constexpr std::chrono::milliseconds first_probe_after{300};
 constexpr std::chrono::milliseconds probe_period{2000};
 constexpr std::chrono::milliseconds probe_limit{1000};
+
+/// A frame that arrives earlier than this after it was sent shows that two clocks differ.
+constexpr std::chrono::nanoseconds clocks_differ = -std::chrono::seconds(1);
 
 /// The shortest time between two log lines about a rig's invalid messages.
 constexpr std::chrono::seconds complaint_period{10};
@@ -102,7 +118,8 @@ struct StageReceiver::Impl {
 
         // Guarded by Impl::mutex.
         RigStatus status;
-        bool relay_answers = false;  ///< a relay answers for the rig, with its reason
+        bool relay_answers = false;     ///< a relay answers for the rig, with its reason
+        std::string answering_address;  ///< of its host name, as a probe found; empty: none yet
         std::uint64_t undecodable_frames = 0;
         RigLink::Request request;
         std::shared_ptr<const std::string> report;
@@ -114,7 +131,7 @@ struct StageReceiver::Impl {
     Impl(const StageConfig& stage, Purpose why, FrameTap frame_tap)
         : purpose(why),
           tap(std::move(frame_tap)),
-          context(static_cast<int>(1 + stage.rigs.size() / rigs_a_network_thread)),
+          context(network_threads(stage)),
           assembler(names_of(stage), assembler_options(stage)),
           starter(PulseGrid(stage.rate_hz)),
           closed_frame_sets(max_closed_sets) {
@@ -178,10 +195,13 @@ struct StageReceiver::Impl {
                 hand_over(*rig, std::move(*delivery));
             }
             RigLink::Request request;
+            std::string other_address;
             {
                 const std::lock_guard lock(mutex);
                 request = rig->request;
+                if (!rig->status.connected) other_address = rig->answering_address;
             }
+            if (!other_address.empty()) rig->link.use_address(other_address);
             request.unhandled = rig->unhandled;
             request.first_pulse = first_pulse;
             rig->link.tick(request, now);
@@ -224,7 +244,7 @@ struct StageReceiver::Impl {
             log_warning("rig {} is not ready; it will join when it is", rigs[late]->name);
         if (!first || first_pulse != 0) return;
         first_pulse = *first;
-        log_info("the take's first pulse is {}", first_pulse);
+        log_info("the stage's first pulse is {}", first_pulse);
     }
 
     std::chrono::nanoseconds next_wait() {
@@ -242,13 +262,14 @@ struct StageReceiver::Impl {
 
     /// Diagnoses why a rig is not connected.
     void probe(Rig& rig) {
-        std::string reason = why_unreachable(rig.endpoint, probe_limit);
+        auto [address, reason] = reach(rig.endpoint, probe_limit);
         if (reason.empty())
             reason = fmt::format(
                 "something at {} accepts connections but does not speak Vantage's "
                 "protocol",
                 rig.endpoint.text());
         const std::lock_guard lock(mutex);
+        if (!address.empty()) rig.answering_address = std::move(address);
         if (!rig.status.connected && !rig.relay_answers) rig.status.unreachable = std::move(reason);
     }
 
@@ -283,6 +304,7 @@ struct StageReceiver::Impl {
             try {
                 decode(number, decoder, *delivery);
             } catch (const std::exception& error) {
+                note_refused_input("frame", delivery->frame->header, error.what());
                 const std::lock_guard lock(mutex);
                 ++rig.undecodable_frames;
                 rig.status.last_error = error.what();
@@ -312,8 +334,10 @@ struct StageReceiver::Impl {
         rig.session = frame->session;
         const std::lock_guard lock(mutex);
         rig.decode_ms.add(to_ms(end - start));
-        rig.network_ms.add(to_ms(delivery.arrival_tai - frame->published));
-        rig.latency_ms.add(to_ms(decoded - frame->exposure));
+        if (delivery.arrival_tai - frame->published > clocks_differ)
+            rig.network_ms.add(to_ms(delivery.arrival_tai - frame->published));
+        if (decoded - frame->exposure > clocks_differ)
+            rig.latency_ms.add(to_ms(decoded - frame->exposure));
         rig.status.rig_times = frame->times;
         ++rig.status.received;
         switch (assembler.add(number, std::move(frame), delivery.arrival)) {
@@ -371,6 +395,7 @@ struct StageReceiver::Impl {
         status.outage_s = std::chrono::duration<double>(rig.outages.length(now)).count();
         status.restarts = view.restarts;
         const std::string rate_before = rate_warning(status);
+        const bool had_tai_warning = status.connected && !tai_warning(status).empty();
         if (goes_on && view.sync.clock_steps > status.sync.clock_steps)
             log_warning(
                 "rig {}: {}; its frames are, or were, off the other rigs' by as much: check that "
@@ -386,6 +411,12 @@ struct StageReceiver::Impl {
         status.sync = std::move(view.sync);
         status.own_tai_offset_s = read_kernel_clock().tai_offset_s;
         status.health = std::move(view.health);
+        const std::string tai = status.connected ? tai_warning(status) : "";
+        if (warns && !had_tai_warning && !tai.empty())
+            log_warning(
+                "rig {}: {}; until then latencies are unknown and its frames may miss their frame "
+                "sets",
+                rig.name, tai);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
         if (const std::string rate = rate_warning(status);
             warns && rate != rate_before && !rate.empty())

@@ -2,16 +2,23 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdlib>
 #include <exception>
 #include <iterator>
 #include <span>
+#include <string_view>
 #include <utility>
 #include <vector>
 #include <zmq_addon.hpp>
 
+#include <fmt/ranges.h>
+
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/refused_inputs.h"
+#include "common/base/time/kernel_clock.h"
 #include "common/config/endpoint.h"
+#include "common/config/socket_address.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/limits.h"
 #include "common/wire/zmq_helpers.h"
@@ -35,7 +42,25 @@ std::string host_key_of(zmq::message_t& part) { return property_of(part, "User-I
 
 std::string address_of(zmq::message_t& part) {
     const std::string address = property_of(part, "Peer-Address");
-    return address.empty() ? "an unknown address" : address;
+    if (address.empty()) return "an unknown address";
+    // A socket for both families names an IPv4 peer so.
+    constexpr std::string_view mapped = "::ffff:";
+    return address.starts_with(mapped) ? address.substr(mapped.size()) : address;
+}
+
+/// The addresses of the host, as ZeroMQ takes them: of a name it binds one only, or takes it for
+/// that of a network device. A name that does not resolve may be one.
+std::vector<std::string> hosts_of(const Endpoint& wanted, const std::string& what) {
+    if (wanted.host == "*" || wanted.ipv6) return {wanted.host};
+    std::vector<std::string> hosts;
+    try {
+        constexpr int any_port = 1;
+        for (const SocketAddress& address : resolve_all(wanted.host, any_port, what))
+            hosts.push_back(address.host());
+    } catch (const Error&) {
+        return {wanted.host};
+    }
+    return hosts;
 }
 
 }  // namespace
@@ -76,7 +101,7 @@ void FrameServer::bind(const Settings& settings) {
     router_.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(max_header_bytes));
     router_.set(zmq::sockopt::handshake_ivl, option_ms(StrangerWatch::handshake_limit));
     watch_for_dead_connections(router_);
-    router_.set(zmq::sockopt::ipv6, wanted.ipv6);
+    const std::vector<std::string> hosts = hosts_of(wanted, settings.bind_option);
     if (!settings.key_file.empty()) {
         const CurveKeys keys = load_key_file(settings.key_file);
         public_key_ = keys.public_key;
@@ -89,15 +114,31 @@ void FrameServer::bind(const Settings& settings) {
         fail("{} = \"{}\" can be reached from other computers, which needs keys",
              settings.bind_option, settings.bind);
     }
-    try {
-        router_.bind(wanted.text());
-    } catch (const zmq::error_t& error) {
-        if (error.num() == EADDRINUSE)
-            fail("port {} of {} is in use by another program; end it or choose another {}",
-                 wanted.port, wanted.host, settings.bind_option);
-        fail("{} = \"{}\" cannot be bound: {}", settings.bind_option, settings.bind, error.what());
+    std::string port = wanted.port, failures;
+    for (const std::string& host : hosts) {
+        try {
+            // "*" listens on both families.
+            router_.set(zmq::sockopt::ipv6, host.starts_with('[') || host == "*");
+            router_.bind(fmt::format("tcp://{}:{}", host, port));
+        } catch (const zmq::error_t& error) {
+            if (error.num() == EADDRINUSE)
+                fail("port {} of {} is in use by another program; end it or choose another {}",
+                     port, host, settings.bind_option);
+            failures += fmt::format("{}{} ({})", failures.empty() ? "" : ", ", host, error.what());
+            continue;
+        }
+        const std::string bound = router_.get(zmq::sockopt::last_endpoint);
+        if (endpoint_.empty()) endpoint_ = bound;
+        // The other addresses get the port that the first one was given.
+        port = bound.substr(bound.rfind(':') + 1);
     }
-    endpoint_ = router_.get(zmq::sockopt::last_endpoint);
+    if (endpoint_.empty())
+        fail("{} = \"{}\" cannot be bound: {}", settings.bind_option, settings.bind, failures);
+    if (!failures.empty())
+        log_info("{} = \"{}\" is not bound at {}", settings.bind_option, settings.bind, failures);
+    if (hosts.size() > 1)
+        log_info("{} = \"{}\" is bound at {}", settings.bind_option, settings.bind,
+                 fmt::join(hosts, " and "));
 }
 
 void FrameServer::run() {
@@ -158,11 +199,13 @@ bool FrameServer::receive() {
     try {
         if (parts.size() != 2) fail("a host message of {} parts came", parts.size() - 1);
         const HostMessage message = decode_host_message(bytes_of(parts[1]));
+        note_clock(message, parts[1], now);
         const std::lock_guard lock(mutex_);
         links_.hear(route, host_key_of(parts[1]), message, now);
         if (message.first_pulse != 0) announced_pulse_ = message.first_pulse;
         if (message.fetch || message.report_id != 0) heard_.notify_all();
     } catch (const Error& error) {
+        note_refused_input("host message", bytes_of(parts.back()), error.what());
         if (const auto times = complaints_.count(1, now))
             log_warning("messages that are no host's were refused: {}; the last, from {}: {}",
                         *times, address_of(parts.back()), error.what());
@@ -171,6 +214,18 @@ bool FrameServer::receive() {
         links_.refuse(route, fmt::format("rig {}: {}", rig_, error.what()));
     }
     return true;
+}
+
+void FrameServer::note_clock(const HostMessage& message, zmq::message_t& part, MonotonicTime now) {
+    if (!message.tai_offset_s) return;
+    const int own = read_kernel_clock().tai_offset_s;
+    if (*message.tai_offset_s == own) return;
+    if (clock_complaints_.count(1, now))
+        log_warning(
+            "the host at {} has a TAI offset from UTC of {} s and this computer {} s, so that "
+            "pulses and latencies differ by {} s: set it at the end that has 0 (ptp4l with "
+            "phc2sys, or chrony with leapsectz), or at neither",
+            address_of(part), *message.tai_offset_s, own, std::abs(*message.tai_offset_s - own));
 }
 
 void FrameServer::send_all() {

@@ -84,6 +84,8 @@ class FrameServer {
     void turn();
     void beat(MonotonicTime now);
     bool receive();
+    /// Warns if the host's TAI offset differs from this computer's.
+    void note_clock(const HostMessage& message, zmq::message_t& part, MonotonicTime now);
     void send_all();
     bool send(const HostLinks::Outgoing& outgoing);
 
@@ -96,7 +98,7 @@ class FrameServer {
     std::string failure_;
     std::uint64_t malformed_ = 0;
     std::condition_variable heard_;
-    LogLimiter complaints_, overruns_;  ///< used by the thread only
+    LogLimiter complaints_, overruns_, clock_complaints_{std::chrono::minutes(1)};  ///< thread only
     std::string slow_host_;
     std::atomic<std::uint64_t> announced_pulse_ = 0;
 

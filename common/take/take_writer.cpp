@@ -8,6 +8,7 @@ extern "C" {
 #include <libavutil/opt.h>
 }
 
+#include "common/av/av_log.h"
 #include "common/base/error.h"
 #include "common/base/files/output_path.h"
 #include "common/take/format/take_file.h"
@@ -54,7 +55,7 @@ TakeWriter::~TakeWriter() {
 }
 
 void TakeWriter::open() {
-    av_log_set_level(AV_LOG_ERROR);
+    keep_av_log();
     AVFormatContext* context = nullptr;
     if (avformat_alloc_output_context2(&context, nullptr, "matroska", nullptr) < 0)
         fail("cannot write {}: this FFmpeg has no Matroska muxer", path_.string());

@@ -65,8 +65,14 @@ Pose to_pose(const wire::Geometry& geometry) {
     return pose;
 }
 
+constexpr double an_hour_ms = 3.6e6;
+
+/// A duration that was measured on this computer: whatever a clock did to it, the frame can travel.
+float sendable_ms(float ms) {
+    return std::isfinite(ms) ? std::clamp(ms, 0.0F, static_cast<float>(an_hour_ms)) : 0.0F;
+}
+
 void check_times(const wire::StageTimes& times) {
-    constexpr double an_hour_ms = 3.6e6;
     check_range("times.capture_ms", times.capture_ms(), 0, an_hour_ms);
     check_range("times.rectify_ms", times.rectify_ms(), 0, an_hour_ms);
     check_range("times.match_ms", times.match_ms(), 0, an_hour_ms);
@@ -215,9 +221,9 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
         geometry.set_place_is_assumed(frame.place_is_assumed);
         header.set_max_disparity_px(frame.max_disparity_px);
     }
-    header.mutable_times()->set_capture_ms(frame.times.capture_ms);
-    header.mutable_times()->set_rectify_ms(frame.times.rectify_ms);
-    header.mutable_times()->set_match_ms(frame.times.match_ms);
+    header.mutable_times()->set_capture_ms(sendable_ms(frame.times.capture_ms));
+    header.mutable_times()->set_rectify_ms(sendable_ms(frame.times.rectify_ms));
+    header.mutable_times()->set_match_ms(sendable_ms(frame.times.match_ms));
     to_wire(frame.counters, *header.mutable_counters());
     to_wire(frame.sync, *header.mutable_sync());
     if (!frame.colour.empty())
@@ -254,7 +260,7 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     frame.times.pack_ms =
         milliseconds_since(start) + (is_packed_ahead ? frame.times.pack_ms : 0.0f);
     frame.published = TaiClock::now();
-    header.mutable_times()->set_pack_ms(frame.times.pack_ms);
+    header.mutable_times()->set_pack_ms(sendable_ms(frame.times.pack_ms));
     header.set_published_tai_ns(to_ns(frame.published));
     packed.header = serialise(header);
     return packed;

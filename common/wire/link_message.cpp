@@ -1,6 +1,8 @@
 #include "common/wire/link_message.h"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "common/base/error.h"
@@ -18,7 +20,8 @@ void check_printable(std::string_view what, std::string_view text) {
 
 /// The length of a refusal, and of a fetch's trouble.
 constexpr std::size_t max_refusal_chars = 512;
-constexpr std::size_t max_date_chars = 40, max_version_chars = 40, max_starting_chars = 120;
+constexpr std::size_t max_date_chars = 40, max_version_chars = 40, max_starting_chars = 120,
+                      max_keeps_chars = 512;
 
 void to_wire(const RigHealth& health, wire::Health& out) {
     if (health.temperature_c) out.set_temperature_c(*health.temperature_c);
@@ -31,6 +34,12 @@ void to_wire(const RigHealth& health, wire::Health& out) {
     out.set_program_version(health.program_version.substr(0, max_version_chars));
     out.set_refused_connections(health.refused_connections);
     out.set_starting(health.starting.substr(0, max_starting_chars));
+    std::string keeps = health.keeps.substr(0, max_keeps_chars);
+    // A folder's name may hold control characters, or UTF-8 that the cut splits.
+    constexpr char first_printable = ' ', del = 0x7f;
+    std::replace_if(
+        keeps.begin(), keeps.end(), [](char c) { return c < first_printable || c == del; }, '?');
+    out.set_keeps(keeps);
 }
 
 RigHealth from_wire(const wire::Health& in) {
@@ -51,6 +60,10 @@ RigHealth from_wire(const wire::Health& in) {
         fail("a rig describes its start in {} characters, beyond the limit of {}",
              in.starting().size(), max_starting_chars);
     check_printable("description of a start", in.starting());
+    if (in.keeps().size() > max_keeps_chars)
+        fail("a line of {} characters about kept takes is beyond the limit of {}",
+             in.keeps().size(), max_keeps_chars);
+    check_printable("line about kept takes", in.keeps());
     RigHealth health;
     if (in.has_temperature_c()) health.temperature_c = in.temperature_c();
     health.under_voltage = in.under_voltage();
@@ -62,6 +75,7 @@ RigHealth from_wire(const wire::Health& in) {
     health.program_version = in.program_version();
     health.refused_connections = in.refused_connections();
     health.starting = in.starting();
+    health.keeps = in.keeps();
     return health;
 }
 
@@ -103,6 +117,7 @@ std::vector<std::byte> encode(const HostMessage& message) {
         fetch.set_granted(message.fetch->granted);
     }
     out.set_report_id(message.report_id);
+    if (message.tai_offset_s) out.set_tai_offset_s(*message.tai_offset_s);
     return serialise(out);
 }
 
@@ -122,6 +137,7 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
                         in.streaming(), in.rate_divisor(), in.first_pulse(), in.raw_pairs()};
     if (in.has_fetch()) message.fetch = from_wire(in.fetch());
     message.report_id = in.report_id();
+    if (in.has_tai_offset_s()) message.tai_offset_s = in.tai_offset_s();
     return message;
 }
 

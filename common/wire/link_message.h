@@ -42,7 +42,8 @@ struct HostMessage {
     std::uint64_t first_pulse = 0;   ///< of the take; 0: not announced yet
     bool raw_pairs = false;          ///< asks for sensor images instead of views
     std::optional<FetchRequest> fetch = {};
-    std::uint64_t report_id = 0;  ///< random: asks for a report; 0: none
+    std::uint64_t report_id = 0;           ///< random: asks for a report; 0: none
+    std::optional<int> tai_offset_s = {};  ///< of the host's clock; empty: not reported
 
     bool operator==(const HostMessage&) const = default;
 };
@@ -60,6 +61,7 @@ struct RigHealth {
     /// What the rig still does before it can send frames, "compiling shaders, 7 of 21"; empty when
     /// it is ready.
     std::string starting;
+    std::string keeps;  ///< one line about the rig's own recording and its erasures; empty: none
 
     bool operator==(const RigHealth&) const = default;
 };

@@ -89,6 +89,7 @@ std::string health_text(const RigHealth& health) {
     if (health.refused_connections > 0)
         text += fmt::format("; refused {} connections that are not from a host",
                             health.refused_connections);
+    if (!health.keeps.empty()) text += "; " + health.keeps;
     if (!health.program_version.empty()) text += "; version " + health.program_version;
     if (health.calibration_date.empty()) return text + "; no calibration file";
     return text + fmt::format("; calibrated {}, rows to {:.2f} px", health.calibration_date,

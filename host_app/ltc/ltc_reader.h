@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/av/sound.h"
@@ -22,10 +23,13 @@ struct LtcReading {
 /// invalid codes and jumps are counted. Not thread-safe.
 class LtcReader {
   public:
-    LtcReader();
+    /// `rate_hz`: of the sound. Throws Error if memory runs out.
+    explicit LtcReader(int rate_hz = sound_rate_hz);
 
-    /// Returns the codes that ended in this block, which starts at or after the end of the last
-    /// one.
+    /// Returns the codes that ended in this sound of one channel, which starts at or after the end
+    /// of the last call's. `first` numbers its first sample.
+    std::vector<LtcReading> hear(std::span<const float> channel, std::int64_t first);
+    /// Does the same for the left channel of a block.
     std::vector<LtcReading> hear(const SoundBlock& sound);
 
     std::uint64_t malformed() const { return malformed_; }
@@ -34,6 +38,7 @@ class LtcReader {
     struct Deleter {
         void operator()(LTCDecoder* decoder) const;
     };
+    int rate_hz_;
     std::unique_ptr<LTCDecoder, Deleter> decoder_;
     std::optional<LtcReading> last_;  ///< last valid one
     std::uint64_t malformed_ = 0;

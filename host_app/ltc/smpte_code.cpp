@@ -8,7 +8,8 @@ namespace vantage {
 
 std::optional<SmpteCode> SmpteCode::parse(std::string_view text) {
     const std::optional<TimeLabel> label = TimeLabel::parse(text);
-    if (!label || !label->frame || text[2] != ':' || text[5] != ':') return std::nullopt;
+    if (!label || !label->frame || label->utc_offset_s || text[2] != ':' || text[5] != ':')
+        return std::nullopt;
     return SmpteCode{label->hours, label->minutes, label->seconds, *label->frame, text[8] == ';'};
 }
 

@@ -1,14 +1,14 @@
 #include "host_app/metrics/metrics_server.h"
 
 #include <cerrno>
-#include <cstring>
 #include <string_view>
 
 #include <microhttpd.h>
 
 #include "common/base/error.h"
+#include "common/config/socket_address.h"
 #include "host_app/control/ports/control_port.h"
-#include "host_app/control/ports/udp_socket.h"
+#include "host_app/metrics/prometheus_text.h"
 
 namespace vantage {
 namespace {
@@ -16,6 +16,7 @@ namespace {
 constexpr unsigned most_peers = 8, patience_s = 10;
 constexpr std::size_t bytes_a_peer = 16384;
 constexpr const char* metrics_type = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+constexpr const char* prometheus_type = "text/plain; version=0.0.4; charset=utf-8";
 
 MHD_Result answer_with(MHD_Connection* connection, unsigned status, std::string_view body,
                        const char* type) {
@@ -38,6 +39,10 @@ MHD_Result answer(void* server, MHD_Connection* connection, const char* path, co
     if (std::string_view(path) != "/metrics")
         return answer_with(connection, MHD_HTTP_NOT_FOUND, "there is only /metrics\n", plain);
     const auto text = static_cast<const MetricsServer*>(server)->shown();
+    const char* accept =
+        MHD_lookup_connection_value(connection, MHD_HEADER_KIND, MHD_HTTP_HEADER_ACCEPT);
+    if (prefers_prometheus_text(accept ? accept : ""))
+        return answer_with(connection, MHD_HTTP_OK, to_prometheus_text(*text), prometheus_type);
     return answer_with(connection, MHD_HTTP_OK, *text, metrics_type);
 }
 
@@ -51,18 +56,22 @@ MetricsServer::MetricsServer(const std::string& text)
     if (url.scheme != "http") fail("the metrics address {} is not http://HOST:PORT", url.shown);
     const NetworkPlace place = listening_place_of(url);
     url.require_options_of({"open"});
-    const SocketAddress address = resolve(place, "metrics " + url.shown);
-    const unsigned flags = MHD_USE_INTERNAL_POLLING_THREAD |
-                           (address.bytes.ss_family == AF_INET6 ? MHD_USE_IPv6 : MHD_NO_FLAG);
-    daemon_.reset(MHD_start_daemon(
-        flags, 0, nullptr, nullptr, answer, this, MHD_OPTION_SOCK_ADDR, &address.bytes,
-        MHD_OPTION_CONNECTION_LIMIT, most_peers, MHD_OPTION_CONNECTION_TIMEOUT, patience_s,
-        MHD_OPTION_CONNECTION_MEMORY_LIMIT, bytes_a_peer, MHD_OPTION_END));
-    if (!daemon_)
-        fail(
-            "metrics {}: cannot listen on port {} ({}); choose another, or end the program using "
-            "it",
-            url.shown, place.port, std::strerror(errno));
+    const std::string what = "metrics " + url.shown;
+    std::vector<ListenAttempt> attempts;
+    for (const SocketAddress& address : resolve_all(place.host, place.port, what)) {
+        const unsigned flags = MHD_USE_INTERNAL_POLLING_THREAD |
+                               (address.family() != AF_INET6 ? MHD_NO_FLAG
+                                : address.is_any()           ? MHD_USE_IPv6 | MHD_USE_DUAL_STACK
+                                                             : MHD_USE_IPv6);
+        errno = 0;
+        std::unique_ptr<MHD_Daemon, Stop> daemon(MHD_start_daemon(
+            flags, 0, nullptr, nullptr, answer, this, MHD_OPTION_SOCK_ADDR, &address.bytes,
+            MHD_OPTION_CONNECTION_LIMIT, most_peers, MHD_OPTION_CONNECTION_TIMEOUT, patience_s,
+            MHD_OPTION_CONNECTION_MEMORY_LIMIT, bytes_a_peer, MHD_OPTION_END));
+        attempts.push_back({address, daemon ? 0 : errno != 0 ? errno : EADDRINUSE});
+        if (daemon) daemons_.push_back(std::move(daemon));
+    }
+    check_attempts(attempts, what);
 }
 
 MetricsServer::~MetricsServer() = default;

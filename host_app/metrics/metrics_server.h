@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 struct MHD_Daemon;
 
@@ -28,7 +29,7 @@ class MetricsServer {
     };
     mutable std::mutex mutex_;
     std::shared_ptr<const std::string> text_;
-    std::unique_ptr<MHD_Daemon, Stop> daemon_;
+    std::vector<std::unique_ptr<MHD_Daemon, Stop>> daemons_;  ///< one for each address
 };
 
 }  // namespace vantage

@@ -140,6 +140,9 @@ void Output::run() {
         try {
             serve();
             rest = first_rest;
+        } catch (const CallerLeft&) {
+            note_caller_left();
+            rest = first_rest;
         } catch (const std::exception& error) {
             note_failure(error.what());
             if (state().pictures > before) rest = first_rest;
@@ -175,6 +178,8 @@ void Output::serve() {
         }
         if (is_abandoned_) return;
         target->finish();
+    } catch (const CallerLeft&) {
+        throw;
     } catch (const std::exception& error) {
         throw Error(error.what() + target->salvage());
     }
@@ -216,15 +221,32 @@ void Output::hear(OutputTarget& target, std::uint64_t until) {
     }
 }
 
-void Output::note_failure(const std::string& sentence) {
-    const std::lock_guard lock(mutex_);
+void Output::drop_waiting() {
     while (queue_.pop_for({}))
         ;
     sounds_.clear();
     state_.dropped = state_.offered - state_.pictures - state_.unheard;
     state_.bit_rate_bps = 0;
+}
+
+void Output::note_caller_left() {
+    const std::lock_guard lock(mutex_);
+    drop_waiting();
+    ++state_.callers_left;
+    state_.failure.clear();
+    state_.phase = is_wanted_ ? OutputPhase::opening : OutputPhase::off;
+    is_due_ = is_wanted_;
+    log_info("{}: its caller has left{}", plan_.name,
+             is_wanted_ ? "; the next one is waited for" : "");
+}
+
+void Output::note_failure(const std::string& sentence) {
+    const std::lock_guard lock(mutex_);
+    drop_waiting();
     // Told to end before anybody took it: that is no failure.
     if (plan_.is_stream && !is_wanted_ && state_.phase != OutputPhase::on) {
+        // One that waits for a caller has got over what kept it from listening.
+        if (state_.phase == OutputPhase::waiting) state_.failure.clear();
         state_.phase = state_.failure.empty() ? OutputPhase::off : OutputPhase::failed;
         return;
     }

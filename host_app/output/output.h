@@ -40,11 +40,12 @@ struct OutputState {
     std::uint64_t unheard = 0;   ///< of a stream, while nobody took it
     std::uint64_t queued = 0;    ///< the one that is being written included
     bool has_sound = false;
-    std::uint64_t silenced = 0;  ///< ticks whose sound was left out
-    std::uint64_t bytes = 0;     ///< written
-    std::uint64_t failures = 0;  ///< times that it failed
-    double bit_rate_bps = 0;     ///< over the last two seconds
-    Percentiles write_ms;        ///< encoding and writing, a picture
+    std::uint64_t silenced = 0;      ///< ticks whose sound was left out
+    std::uint64_t bytes = 0;         ///< written
+    std::uint64_t failures = 0;      ///< times that it failed
+    std::uint64_t callers_left = 0;  ///< of one that listens
+    double bit_rate_bps = 0;         ///< over the last two seconds
+    Percentiles write_ms;            ///< encoding and writing, a picture
 };
 
 /// One output of the programme, on a thread of its own with a short queue, so that neither encoder
@@ -87,6 +88,10 @@ class Output {
     void hear(OutputTarget& target, std::uint64_t until);
     void want_no_more();
     void note_failure(const std::string& sentence);
+    /// Of one that listens: the next caller is waited for.
+    void note_caller_left();
+    /// What waits is not written any more. Precondition: mutex_ is held.
+    void drop_waiting();
     /// False: it is not wanted any more.
     bool wait_to_try_again(std::chrono::nanoseconds time);
 

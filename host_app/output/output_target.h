@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/av/sound.h"
+#include "common/base/error.h"
 #include "common/image/image.h"
 #include "host_app/output/output_retry.h"
 #include "host_app/output/output_url.h"
@@ -22,6 +23,12 @@ struct OutputFormat {
     std::string encoder = "libx264";  ///< one of known_encoders()
     bool overwrites = false;          ///< a file that is there may be replaced
     bool has_sound = false;           ///< every tick has a SoundBlock
+};
+
+/// Whoever called a listening output has left: its end, and no failure.
+class CallerLeft : public Error {
+  public:
+    using Error::Error;
 };
 
 /// Where an output's pictures go, open. Made, used and destroyed on the output's own thread, which

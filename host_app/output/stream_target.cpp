@@ -28,7 +28,8 @@ int is_over(void* patience) { return static_cast<const OutputPatience*>(patience
 
 }  // namespace
 
-StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patience) {
+StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patience)
+    : is_listening_(settings.is_listening) {
     keep_av_log();
     (void)take_av_remark();
     avformat_network_init();
@@ -62,7 +63,13 @@ StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patie
     }
     av_dict_set(&output_->metadata, "service_name", "Vantage", 0);
     if (const int code = avformat_write_header(output_.get(), nullptr); code < 0)
-        fail_for("it cannot be opened", code);
+        fail_for_peer("it cannot be opened", code);
+}
+
+void StreamTarget::fail_for_peer(const char* what, int code) const {
+    if (!is_listening_) fail_for(what, code);
+    (void)take_av_remark();
+    throw CallerLeft("its caller has left");
 }
 
 void StreamTarget::write(const ColourImage& picture, std::int64_t tick, const std::string&) {
@@ -91,7 +98,7 @@ void StreamTarget::finish() {
         send_sound();
     }
     if (const int code = av_write_trailer(output_.get()); code < 0)
-        fail_for("it does not end", code);
+        fail_for_peer("it does not end", code);
 }
 
 std::uint64_t StreamTarget::bytes() const {
@@ -114,7 +121,7 @@ void StreamTarget::write(AVPacket& packet, const AVCodecContext& encoder, const 
     av_packet_rescale_ts(&packet, encoder.time_base, stream.time_base);
     packet.stream_index = stream.index;
     if (const int code = av_write_frame(output_.get(), &packet); code < 0)
-        fail_for("its peer or the network is gone", code);
+        fail_for_peer("its peer or the network is gone", code);
 }
 
 EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format) {

@@ -23,6 +23,7 @@ class StreamTarget final : public OutputTarget {
         std::string encoder;
         EncoderSettings encoding;
         bool has_sound = false;
+        bool is_listening = false;  ///< a peer that is gone is a caller that has left
     };
     /// Waits for a peer where the protocol has one. Throws Error if there is none, or it refuses,
     /// or patience is over; `patience` must outlive this.
@@ -34,12 +35,14 @@ class StreamTarget final : public OutputTarget {
     std::uint64_t bytes() const override;
 
   private:
+    [[noreturn]] void fail_for_peer(const char* what, int code) const;
     void send();
     void send_sound();
     AVStream& add_stream(const AVCodecContext& encoder);
     void write(AVPacket& packet, const AVCodecContext& encoder, const AVStream& stream);
 
     AvOutputPtr output_;
+    bool is_listening_;
     std::optional<PictureEncoder> encoder_;
     std::optional<SoundTrack> sound_;
     AVStream* stream_ = nullptr;        ///< owned by output_

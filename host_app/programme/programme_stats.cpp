@@ -1,5 +1,6 @@
 #include "host_app/programme/programme_stats.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "host_app/programme/reprojection.h"
@@ -29,8 +30,11 @@ std::optional<double> ProgrammeRecorder::record_fresh(const MadePicture& made, M
         return std::nullopt;
     latency_pulse_ = instant.set->trigger_index;
     const double latency_ms = to_ms(TaiClock::now() - *instant.exposure);
+    // No frame is shown long before its exposure: the clocks of rig and host differ.
+    constexpr double clocks_differ_ms = -1000;
+    if (latency_ms < clocks_differ_ms) return 0;
     latency_ms_.add(latency_ms);
-    return latency_ms;
+    return std::max(latency_ms, 0.0);
 }
 
 std::optional<double> ProgrammeRecorder::record(const HandOver& frame) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdarg>
+#include <cstdio>
 #include <cstring>
 
 // ALSA's header does not declare C linkage for its error handlers.
@@ -11,6 +12,7 @@ extern "C" {
 }
 
 #include "common/base/error.h"
+#include "common/base/library_log.h"
 
 namespace vantage {
 namespace {
@@ -45,13 +47,25 @@ float value_of(const std::uint8_t* bytes, int format) {
     }
 }
 
+/// Receives the messages that ALSA would print to stderr. Our own sentences name its errors.
+void keep_alsa_message(const char*, int, const char* function, int, const char* format, ...) {
+    static LibraryLog log("ALSA", LogLevel::debug);
+    std::array<char, 512> text{};
+    va_list words;
+    va_start(words, format);
+    std::vsnprintf(text.data(), text.size(), format, words);
+    va_end(words);
+    log.note(fmt::format("{}: {}", function ? function : "", text.data()));
+}
+
 }  // namespace
 
-void AlsaCapture::Inpainting::operator()(_snd_pcm* device) const { snd_pcm_close(device); }
+void keep_alsa_log() { snd_lib_error_set_handler(keep_alsa_message); }
+
+void AlsaCapture::Close::operator()(_snd_pcm* device) const { snd_pcm_close(device); }
 
 AlsaCapture::AlsaCapture(const std::string& name, unsigned left, unsigned right) : name_(name) {
-    // ALSA would also print the error to stderr.
-    snd_lib_error_set_local([](const char*, int, const char*, int, const char*, va_list) {});
+    keep_alsa_log();
     snd_pcm_t* device = nullptr;
     if (const int code =
             snd_pcm_open(&device, name.c_str(), SND_PCM_STREAM_CAPTURE, SND_PCM_NONBLOCK);

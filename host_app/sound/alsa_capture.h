@@ -11,6 +11,9 @@ struct _snd_pcm;
 
 namespace vantage {
 
+/// Redirects the messages of ALSA from stderr to our log at level `debug`, in the whole process.
+void keep_alsa_log();
+
 /// Captures from an ALSA device, including PulseAudio's and PipeWire's. Not thread-safe.
 class AlsaCapture {
   public:
@@ -29,7 +32,7 @@ class AlsaCapture {
     Piece read(std::chrono::milliseconds most);
 
   private:
-    struct Inpainting {
+    struct Close {
         void operator()(_snd_pcm* device) const;
     };
     void choose_format();
@@ -37,7 +40,7 @@ class AlsaCapture {
     [[noreturn]] void refuse(const char* what, int code) const;
 
     std::string name_;
-    std::unique_ptr<_snd_pcm, Inpainting> device_;
+    std::unique_ptr<_snd_pcm, Close> device_;
     int format_ = 0;
     unsigned rate_hz_ = 0, channels_ = 0;
     std::size_t left_ = 0, right_ = 0;

@@ -27,8 +27,16 @@ SoundDecoder::SoundDecoder(std::filesystem::path path)
     if (code < 0) refuse(code);
 }
 
+SoundDecoder SoundDecoder::as_stored(std::filesystem::path path) {
+    SoundDecoder decoder(std::move(path));
+    decoder.is_as_stored_ = true;
+    if (decoder.rate_hz() <= 0 || decoder.channels() == 0)
+        fail("the sound of {} states neither its rate nor its channels", decoder.path_.string());
+    return decoder;
+}
+
 std::vector<float> SoundDecoder::next(std::size_t count) {
-    const std::size_t values = count * sound_channels;
+    const std::size_t values = count * channels();
     while (decoded_.size() < values && !is_at_end_) decode_some();
     const auto end =
         decoded_.begin() + static_cast<std::ptrdiff_t>(std::min(values, decoded_.size()));
@@ -61,8 +69,10 @@ void SoundDecoder::take_frames() {
             AVChannelLayout channels = frame_->ch_layout;
             if (channels.order == AV_CHANNEL_ORDER_UNSPEC)
                 av_channel_layout_default(&channels, channels.nb_channels);
-            converter_.emplace(channels, static_cast<AVSampleFormat>(frame_->format),
-                               frame_->sample_rate);
+            const auto format = static_cast<AVSampleFormat>(frame_->format);
+            converter_ = is_as_stored_
+                             ? SoundConverter::of_format(channels, format, frame_->sample_rate)
+                             : SoundConverter(channels, format, frame_->sample_rate);
         }
         const std::vector<float> samples =
             converter_->convert(frame_->extended_data, frame_->nb_samples);
@@ -74,27 +84,45 @@ void SoundDecoder::refuse(int code) const {
     fail("the sound of {} cannot be read: {}", path_.string(), av_reason(code));
 }
 
-SoundConverter::SoundConverter(AVChannelLayout channels, AVSampleFormat format, int rate_hz) {
+namespace {
+
+AVChannelLayout stereo_layout() {
     AVChannelLayout stereo{};
     av_channel_layout_default(&stereo, static_cast<int>(sound_channels));
+    return stereo;
+}
+
+}  // namespace
+
+SoundConverter::SoundConverter(AVChannelLayout channels, AVSampleFormat format, int rate_hz)
+    : SoundConverter(channels, format, rate_hz, stereo_layout(), sound_rate_hz) {}
+
+SoundConverter SoundConverter::of_format(AVChannelLayout channels, AVSampleFormat format,
+                                         int rate_hz) {
+    return {channels, format, rate_hz, channels, rate_hz};
+}
+
+SoundConverter::SoundConverter(AVChannelLayout from, AVSampleFormat format, int from_hz,
+                               AVChannelLayout to, int to_hz)
+    : channels_(static_cast<std::size_t>(to.nb_channels)) {
     SwrContext* context = nullptr;
-    int code = swr_alloc_set_opts2(&context, &stereo, AV_SAMPLE_FMT_FLT, sound_rate_hz, &channels,
-                                   format, rate_hz, 0, nullptr);
+    int code = swr_alloc_set_opts2(&context, &to, AV_SAMPLE_FMT_FLT, to_hz, &from, format, from_hz,
+                                   0, nullptr);
     context_.reset(context);
     if (code >= 0) code = swr_init(context);
     if (code < 0)
-        fail("sound of {} channels at {} Hz cannot be converted ({})", channels.nb_channels,
-             rate_hz, av_reason(code));
+        fail("sound of {} channels at {} Hz cannot be converted ({})", from.nb_channels, from_hz,
+             av_reason(code));
 }
 
 std::vector<float> SoundConverter::convert(const std::uint8_t* const* planes, int count) {
     const int most = swr_get_out_samples(context_.get(), count);
-    std::vector<float> samples(static_cast<std::size_t>(std::max(0, most)) * sound_channels);
+    std::vector<float> samples(static_cast<std::size_t>(std::max(0, most)) * channels_);
     auto* out = reinterpret_cast<std::uint8_t*>(samples.data());
     const int made =
         swr_convert(context_.get(), &out, most, const_cast<const std::uint8_t**>(planes), count);
     if (made < 0) fail("sound cannot be converted ({})", av_reason(made));
-    samples.resize(static_cast<std::size_t>(made) * sound_channels);
+    samples.resize(static_cast<std::size_t>(made) * channels_);
     return samples;
 }
 

@@ -1,9 +1,13 @@
 #include "host_app/takes/clock_time.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <vector>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/base/time/timecode.h"
+#include "common/base/time/utc_offset.h"
 
 namespace vantage {
 namespace {
@@ -13,10 +17,13 @@ struct Words {
     std::tm local{};
     bool has_date = false;
     std::optional<int> frame;
+    std::optional<int> utc_offset_s;  ///< empty: local time
 };
 
-Words read(const std::string& text) {
+Words read(std::string text) {
+    const std::string written = text;
     Words words;
+    words.utc_offset_s = take_utc_offset(text);
     const std::size_t t = text.find('T');
     words.has_date = t != std::string::npos;
     std::tm& local = words.local;
@@ -49,20 +56,81 @@ Words read(const std::string& text) {
            told.tm_hour >= 0 && told.tm_hour < 24 && told.tm_min >= 0 && told.tm_min < 60 &&
            told.tm_sec >= 0 && told.tm_sec < 60;
     if (!fits)
-        fail("'{}' is not a time such as 20:15:00, 20:15:00:12 or 2026-11-22T20:15:00", text);
+        fail(
+            "'{}' is not a time such as 20:15:00, 20:15:00:12 or 2026-11-22T20:15:00, each "
+            "optionally with Z or an offset such as +01:00",
+            written);
     return words;
 }
 
-/// The time of day on the day of `near` plus `days`.
-std::time_t on_day_of(std::time_t near, const Words& words, int days) {
-    std::tm day{};
-    localtime_r(&near, &day);
-    day.tm_hour = words.local.tm_hour;
-    day.tm_min = words.local.tm_min;
-    day.tm_sec = words.local.tm_sec;
-    day.tm_mday += days;
-    day.tm_isdst = -1;
-    return std::mktime(&day);
+/// The moments at which local clocks show this time: two in the hour that occurs twice, none in the
+/// hour that is skipped.
+std::vector<std::time_t> moments_of(const std::tm& shown) {
+    std::vector<std::time_t> moments;
+    for (const int is_summer : {1, 0}) {
+        std::tm wanted = shown;
+        wanted.tm_isdst = is_summer;
+        const std::time_t moment = std::mktime(&wanted);
+        std::tm back{};
+        localtime_r(&moment, &back);
+        if (back.tm_hour == shown.tm_hour && back.tm_min == shown.tm_min &&
+            back.tm_sec == shown.tm_sec &&
+            std::find(moments.begin(), moments.end(), moment) == moments.end())
+            moments.push_back(moment);
+    }
+    std::sort(moments.begin(), moments.end());
+    return moments;
+}
+
+/// The moments on the date of the words, or without a date on the day of `near` plus `days`.
+std::vector<std::time_t> moments_of(const Words& words, std::time_t near, int days) {
+    std::tm shown = words.local;
+    const std::time_t offset_s = words.utc_offset_s.value_or(0);
+    if (!words.has_date) {
+        std::tm day{};
+        const std::time_t there = near + offset_s;
+        if (words.utc_offset_s)
+            gmtime_r(&there, &day);
+        else
+            localtime_r(&near, &day);
+        shown.tm_year = day.tm_year;
+        shown.tm_mon = day.tm_mon;
+        shown.tm_mday = day.tm_mday + days;
+    }
+    if (words.utc_offset_s) return {timegm(&shown) - offset_s};
+    return moments_of(shown);
+}
+
+std::string utc_text(std::time_t moment) {
+    std::tm utc{};
+    gmtime_r(&moment, &utc);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", utc.tm_year + 1900, utc.tm_mon + 1,
+                       utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec);
+}
+
+/// Returns the first or last of these moments that fits, or the first one if none does.
+template <class Fits>
+std::time_t choose(const std::string& text, const Words& words,
+                   const std::vector<std::vector<std::time_t>>& days, bool takes_last, Fits fits) {
+    std::optional<std::time_t> chosen, any;
+    const std::vector<std::time_t>* of_day = nullptr;
+    for (const std::vector<std::time_t>& day : days)
+        for (const std::time_t moment : day) {
+            if (!any) any = moment;
+            if (!fits(moment) || (chosen && !takes_last)) continue;
+            chosen = moment;
+            of_day = &day;
+        }
+    if (!any)
+        fail("{} is in the hour that is skipped when clocks are set forward: there is no such time",
+             text);
+    if (of_day && of_day->size() > 1 && !words.utc_offset_s)
+        log_info(
+            "{} occurs twice, since clocks were set back: {} is taken; append Z or an offset such "
+            "as "
+            "+01:00 for the other",
+            text, utc_text(*chosen));
+    return chosen.value_or(*any);
 }
 
 }  // namespace
@@ -70,17 +138,19 @@ std::time_t on_day_of(std::time_t near, const Words& words, int days) {
 ClockSpan clock_span(const std::string& from, const std::string& to, std::time_t now) {
     const Words first = read(from), last = read(to);
     ClockSpan span{{from, 0, first.frame}, {to, 0, last.frame}};
-    std::tm told = first.local;
-    span.from.utc_s = first.has_date ? std::mktime(&told) : on_day_of(now, first, 0);
-    if (!first.has_date && span.from.utc_s > now) span.from.utc_s = on_day_of(now, first, -1);
+    const auto days_of = [](const Words& words, std::time_t near, int from_day, int to_day) {
+        std::vector<std::vector<std::time_t>> days;
+        for (int day = from_day; day <= (words.has_date ? from_day : to_day); ++day)
+            days.push_back(moments_of(words, near, day));
+        return days;
+    };
+    span.from.utc_s = choose(from, first, days_of(first, now, -1, 0), true,
+                             [now](std::time_t moment) { return moment <= now; });
     const auto is_after = [&](std::time_t utc_s) {
         return std::pair(utc_s, span.to.frame.value_or(0)) >
                std::pair(span.from.utc_s, span.from.frame.value_or(0));
     };
-    told = last.local;
-    span.to.utc_s = last.has_date ? std::mktime(&told) : on_day_of(span.from.utc_s, last, 0);
-    if (!last.has_date && !is_after(span.to.utc_s))
-        span.to.utc_s = on_day_of(span.from.utc_s, last, 1);
+    span.to.utc_s = choose(to, last, days_of(last, span.from.utc_s, 0, 1), false, is_after);
     if (!is_after(span.to.utc_s)) fail("--from {} is not before --to {}", from, to);
     return span;
 }

@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/time/clock_step_watch.h"
 #include "common/config/rig_config.h"
 #include "rig_firmware/capture/device_lost.h"
 #include "rig_firmware/capture/frame_pairer.h"
@@ -214,6 +215,7 @@ class CameraSource final : public StereoSource {
         read_clocks();
         const TaiTime stamp = clocks_.to_tai(joined.time);
         StereoFrame frame;
+        frame.exposed = joined.time;
         frame.left = std::move(joined.left.colour);
         frame.right = std::move(joined.right.colour);
         frame.lent_left = std::move(joined.left.lent);
@@ -234,12 +236,20 @@ class CameraSource final : public StereoSource {
         return frame;
     }
 
-    /// A pair of readings every quarter of a second keeps the model at hand without a cost.
+    /// A pair of readings every quarter of a second keeps the model at hand without a cost. A clock
+    /// that was set is followed from the next frame on.
     void read_clocks() {
         constexpr std::chrono::milliseconds between(250);
         const MonotonicTime now = MonotonicClock::now();
-        if (clocks_.ready() && now - clocks_read_ < between) return;
         const ClockPair pair = ClockPair::now();
+        if (steps_.observe(pair.monotonic, pair.tai)) {
+            clocks_.restart(pair.monotonic, pair.tai);
+            clocks_read_ = now;
+            numberer_.clock_was_set();
+            if (trigger_) trigger_->clock_was_set();
+            return;
+        }
+        if (clocks_.ready() && now - clocks_read_ < between) return;
         clocks_.observe(pair.monotonic, pair.tai);
         clocks_read_ = now;
     }
@@ -299,6 +309,7 @@ class CameraSource final : public StereoSource {
     PulseGrid grid_;
     RigTrigger* trigger_ = nullptr;
     ClockModel clocks_;
+    ClockStepWatch steps_;
     MonotonicTime clocks_read_{};
     PulseNumberer numberer_;
     FramePairer<SensorPicture> pairer_;

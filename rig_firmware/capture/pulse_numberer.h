@@ -34,6 +34,12 @@ class PulseNumberer {
         return index;
     }
 
+    /// The pulses that the clock leapt over, or repeats, were not missed.
+    void clock_was_set() {
+        if (last_) ++clock_steps_;
+        last_.reset();
+    }
+
     std::uint64_t missed() const { return missed_; }
     std::uint64_t surplus() const { return surplus_; }
     std::uint64_t clock_steps() const { return clock_steps_; }

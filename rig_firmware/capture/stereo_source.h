@@ -23,6 +23,7 @@ struct StereoFrame {
     std::uint64_t trigger_index = 0;
     bool synchronized = false;  ///< trigger_index is a pulse of the stage
     TaiTime exposure{};         ///< centre of exposure
+    MonotonicTime exposed{};    ///< the same moment, for durations: no clock that is set changes it
     ColourImage left, right;    ///< same size; grey sensors deliver equal channels
     /// The pictures in the cameras' own buffers, in place of `left` and `right`, which are empty
     /// then. Only from a source that was told to lend.

@@ -45,6 +45,16 @@ void ClockModel::observe(MonotonicTime source, TaiTime tai) {
     odd_ = pair;
 }
 
+void ClockModel::restart(MonotonicTime source, TaiTime tai) {
+    if (ready()) {
+        ++steps_;
+        last_step_ns_ = ns(tai - to_tai(source));
+    }
+    window_.clear();
+    odd_.reset();
+    take({source, tai});
+}
+
 void ClockModel::take(const Pair& pair) {
     window_.push_back(pair);
     if (window_.size() > window_pairs) window_.pop_front();

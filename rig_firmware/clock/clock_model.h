@@ -28,6 +28,9 @@ class ClockModel {
     /// than the last (a duplicate) is left out.
     void observe(MonotonicTime source, TaiTime tai);
 
+    /// The clock is known to have been set: begins anew with this pair at once.
+    void restart(MonotonicTime source, TaiTime tai);
+
     /// Whether anything can be carried yet.
     bool ready() const { return !window_.empty(); }
     /// Precondition: ready().

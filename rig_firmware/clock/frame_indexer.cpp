@@ -34,6 +34,11 @@ bool FrameIndexer::seen(TaiTime edge) {
     return true;
 }
 
+void FrameIndexer::clock_was_set() {
+    pulses_.clear();
+    last_.reset();
+}
+
 std::optional<std::uint64_t> FrameIndexer::index_of(TaiTime stamp) {
     const TaiTime pulse = stamp - delay_;
     const std::uint64_t index = grid_.nearest_index(pulse);

@@ -23,6 +23,10 @@ class FrameIndexer {
     /// grid belongs to no pulse of the stage; returns whether it belongs to one.
     bool seen(TaiTime edge);
 
+    /// The pulses before the clock was set have other indices than those after it: the pulses that
+    /// it leapt over were not missed.
+    void clock_was_set();
+
     /// The pulse of the frame with this time stamp; empty: unsynchronized.
     std::optional<std::uint64_t> index_of(TaiTime stamp);
 

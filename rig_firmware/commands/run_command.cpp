@@ -54,6 +54,8 @@ nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& statu
                     {"refused_messages", status.publisher.malformed},
                     {"refused_fetches", status.publisher.refused_fetches},
                     {"refused_connections", status.publisher.refused_connections},
+                    {"keeps", status.keeps},
+                    {"kept_files_erased", status.kept_files_erased},
                     {"capture_ms", to_json(status.capture_ms)},
                     {"rectify_ms", to_json(status.rectify_ms)},
                     {"match_ms", to_json(status.match_ms)},

@@ -13,7 +13,9 @@
 #include "common/base/cli/version.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/log_limiter.h"
 #include "common/base/this_thread.h"
+#include "common/base/time/clock_step_watch.h"
 #include "common/base/time/time.h"
 #include "common/config/calibration_file.h"
 #include "common/gl/context/context_loss.h"
@@ -44,6 +46,7 @@ struct SourceFacts {
 struct CapturedFrame {
     StereoFrame frame;
     float capture_ms = 0;
+    MonotonicTime exposed{};
 };
 
 /// What of a rig's health stays as it is.
@@ -66,6 +69,7 @@ constexpr const char* keeps_nothing =
 struct Instant {
     std::optional<RigFrame> view;      ///< empty at a rig without calibration
     std::optional<RigFrame> raw_pair;  ///< where a host asks for it, and at a rig without views
+    MonotonicTime exposed{};
     const RigFrame& either() const { return view ? *view : *raw_pair; }
 };
 
@@ -188,6 +192,8 @@ struct RigDaemon::Impl {
 
     MonotonicTime compiling_logged{};  ///< only the GPU's thread uses it
     std::uint64_t refused_pulse = 0;   ///< only the thread that keeps in step uses it
+    ClockStepWatch capture_steps;      ///< only the thread that captures uses it
+    LogLimiter refused_frames{std::chrono::seconds(10)};  ///< only the thread that publishes
 
     Heartbeat capture_heart{"capture"}, gpu_heart{"gpu"}, publish_heart{"publish"},
         sync_heart{"sync"};
@@ -269,7 +275,9 @@ void RigDaemon::Impl::capture_one(StereoSource& source) {
         }
         if (!captured.wait_for_room(wait_slice)) return;
     }
+    (void)capture_steps.look();
     std::optional<StereoFrame> frame = source.next(wait_slice);
+    const bool clock_was_set = capture_steps.look().has_value();
     // Counted before it is handed on: what is published has been captured at any moment.
     count([&](RigCounters& c) {
         c.missed = source.missed();
@@ -277,12 +285,14 @@ void RigDaemon::Impl::capture_one(StereoSource& source) {
         source_counters = source.counters();
         sensor_clock = source.clock();
     });
-    if (frame) {
-        const auto age = TaiClock::now() - frame->exposure;
-        // Some drivers stamp a picture with the end of its period, which is still to come.
-        const float age_ms = std::max(0.0f, std::chrono::duration<float, std::milli>(age).count());
-        if (captured.push({std::move(*frame), age_ms})) count([](RigCounters& c) { ++c.late; });
-    }
+    if (!frame) return;
+    // The index of its pulse was computed with the clock as it was before the step.
+    if (clock_was_set) return count([](RigCounters& c) { ++c.late; });
+    const MonotonicTime exposed = frame->exposed;
+    // Some drivers stamp a picture with the end of its period, which is still to come.
+    const auto age_ms = static_cast<float>(std::max(0.0, ms_since(exposed)));
+    if (captured.push({std::move(*frame), age_ms, exposed}))
+        count([](RigCounters& c) { ++c.late; });
 }
 
 /// Hands the host's first pulse to the trigger, and the state of pulses, clocks and computer to
@@ -300,6 +310,10 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
             clock = read_ptp();
             tai_offset_s = read_kernel_clock().tai_offset_s;
             RigHealth health = monitor.look(publisher.status().counters, MonotonicClock::now());
+            if (keeper)
+                health.keeps = keeper->line();
+            else if (!config.keep.folder.empty())
+                health.keeps = keeps_nothing;
             {
                 const std::lock_guard lock(mutex);
                 health.starting = starting;
@@ -311,7 +325,16 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
             announce(publisher.announced_pulse());
         }
         const ClockPair pair = ClockPair::now();
+        const std::uint64_t steps = time_of_day.state().steps;
         time_of_day.observe(pair.monotonic, pair.tai);
+        if (time_of_day.state().steps != steps) {
+            log_warning(
+                "{}: this computer's clock was set by {:+.1f} ms; frames before and after it are "
+                "counted by different clocks",
+                config.name, time_of_day.state().last_step_ns / 1e6);
+            // A first pulse that was refused by the old clock may be possible by the new one.
+            refused_pulse = 0;
+        }
         const RigSync now = sync_now(clock, tai_offset_s, time_of_day.state());
         publisher.report(now);
         {
@@ -387,6 +410,7 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
         std::optional<CapturedFrame> next = captured.pop_for(wait_slice);
         if (!next) continue;
         Instant instant;
+        instant.exposed = next->exposed;
         if (!gpu || publisher.wants_raw_pair(next->frame.trigger_index))
             instant.raw_pair = raw_pair_of(next->frame, calibration ? calibration->id : "");
         if (gpu) {
@@ -455,6 +479,7 @@ void RigDaemon::Impl::note_compiling(const ProgramProgress& progress) {
 
 void RigDaemon::Impl::publish() {
     std::uint64_t published = 0;
+    std::string refusal;
     while (!(matched.closed() && matched.size() == 0)) {
         publish_heart.beat();
         std::optional<Instant> instant = matched.pop_for(wait_slice);
@@ -464,19 +489,29 @@ void RigDaemon::Impl::publish() {
             continue;
         }
         const RigStageTimes times = instant->either().times;
-        const TaiTime exposure = instant->either().exposure;
         const MonotonicTime start = MonotonicClock::now();
+        bool is_refused = false;
         for (std::optional<RigFrame>* frame : {&instant->view, &instant->raw_pair}) {
             if (!*frame) continue;
             {
                 const std::lock_guard lock(mutex);
                 (*frame)->counters = counters;
             }
-            const auto packed = publisher.publish(std::move(**frame));
-            if (keeper && packed) keeper->offer(packed);
+            try {
+                const auto packed = publisher.publish(std::move(**frame));
+                if (keeper && packed) keeper->offer(packed);
+            } catch (const FrameRefused& error) {
+                is_refused = true;
+                refusal = error.what();
+            }
         }
+        if (is_refused) count([](RigCounters& c) { ++c.late; });
+        if (const auto lost = refused_frames.count(is_refused, MonotonicClock::now()))
+            log_error("{}: {} frames could not be sent and are lost; the last: {}", config.name,
+                      *lost, refusal);
+        if (is_refused) continue;
         const auto packing = MonotonicClock::now() - start;
-        const auto latency = TaiClock::now() - exposure;
+        const double exposure_to_published_ms = ms_since(instant->exposed);
         if (++published == frame_limit) stopping = true;
         const std::lock_guard lock(mutex);
         capture_ms.add(times.capture_ms);
@@ -484,7 +519,7 @@ void RigDaemon::Impl::publish() {
         match_ms.add(times.match_ms);
         // And what of it was done while the GPU matched.
         pack_ms.add(to_ms(packing) + times.pack_ms);
-        latency_ms.add(to_ms(latency));
+        latency_ms.add(exposure_to_published_ms);
     }
 }
 
@@ -559,10 +594,12 @@ DaemonStatus RigDaemon::status() const {
     status.source_counters.push_back({"gpu_restarts", impl_->gpu_restarts});
     status.starting = impl_->starting;
     status.sync = impl_->sync;
-    if (impl_->keeper)
+    if (impl_->keeper) {
         status.keeps = impl_->keeper->line();
-    else if (!impl_->config.keep.folder.empty())
+        status.kept_files_erased = impl_->keeper->erased();
+    } else if (!impl_->config.keep.folder.empty()) {
         status.keeps = keeps_nothing;
+    }
     status.capture_ms = impl_->capture_ms.summary();
     status.rectify_ms = impl_->rectify_ms.summary();
     status.match_ms = impl_->match_ms.summary();

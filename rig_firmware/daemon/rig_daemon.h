@@ -19,7 +19,8 @@ struct DaemonStatus {
     RigSync sync;
     /// What the daemon does before its first frame ("compiling shaders, 7 of 21"); empty: it works.
     std::string starting;
-    std::string keeps;       ///< of the rig's own take, one line; empty: it keeps none
+    std::string keeps;  ///< of the rig's own take, one line; empty: it keeps none
+    std::uint64_t kept_files_erased = 0;
     Percentiles capture_ms;  ///< exposure to delivered
     Percentiles rectify_ms;  ///< upload, rectify
     Percentiles match_ms;    ///< match, read back

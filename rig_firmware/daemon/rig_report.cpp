@@ -12,8 +12,11 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/secrets.h"
+#include "common/base/library_log.h"
 #include "common/base/log.h"
+#include "common/base/refused_inputs.h"
 #include "common/base/time/time.h"
+#include "common/config/socket_address.h"
 #include "common/wire/limits.h"
 
 namespace vantage {
@@ -70,6 +73,16 @@ std::string rig_report(const RigConfig& config, const std::vector<std::string>& 
         }
     };
     add("config", [&] { return without_secrets(read_text_file(config.file, max_config_bytes)); });
+    report["refused_inputs"] = nlohmann::ordered_json::array();
+    for (const RefusedInput& input : refused_inputs())
+        report["refused_inputs"].push_back({{"decoder", input.decoder},
+                                            {"reason", without_secrets(input.reason)},
+                                            {"count", input.count},
+                                            {"bytes", input.bytes},
+                                            {"hex", input.hex}});
+    for (const auto& [library, count] : LibraryLog::counts())
+        report["library_messages"][library] = count;
+    add("addresses", [] { return own_addresses(); });
     for (const std::string& line : said_at_start) report["start"].push_back(without_secrets(line));
     for (const std::string& line : recent_log_lines())
         report["log"].push_back(without_secrets(line));

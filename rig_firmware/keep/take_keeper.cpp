@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <ctime>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "common/base/cli/version.h"
@@ -16,8 +18,13 @@ namespace {
 constexpr std::chrono::milliseconds look_every{100};
 /// A disk that failed is left alone for so long.
 constexpr std::chrono::seconds patience_with_disk{10};
-/// Of a disk that a file failed on: below this the oldest makes room.
+/// Free space of the disk below which the oldest file is erased.
 constexpr double least_room_mb = 500;
+/// A pulse index that is lower than the last one by more than this shows that the clock was set
+/// back; frames without a pulse of their own may repeat an index.
+constexpr std::uint64_t clock_step_pulses = 2;
+/// Frames that wait while the next file is opened; the oldest is dropped beyond this.
+constexpr std::size_t most_held = 1000;
 /// What may come between the end of a file and the begin of the next.
 constexpr std::chrono::seconds between_files{30};
 
@@ -32,17 +39,21 @@ TakeRecorder::Settings recorder_settings(const std::string& rig, double rate_hz)
     return settings;
 }
 
+void make_keep_folder(const std::filesystem::path& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) fail("the folder {} of [keep] cannot be made: {}", folder.string(), error.message());
+}
+
 }  // namespace
 
 TakeKeeper::TakeKeeper(const RigConfig::Keep& config, std::string rig, double rate_hz)
-    : config_(config), rig_(std::move(rig)), recorder_(recorder_settings(rig_, rate_hz)) {
-    std::error_code error;
-    std::filesystem::create_directories(config_.folder, error);
-    if (error)
-        fail("the folder {} of [keep] cannot be made: {}", config_.folder.string(),
-             error.message());
+    : config_(config),
+      rig_(std::move(rig)),
+      ledger_((make_keep_folder(config_.folder), config_.folder), rig_),
+      recorder_(recorder_settings(rig_, rate_hz)) {
     require_writable_output(config_.folder / kept_file_name(rig_, std::time(nullptr)), {});
-    drop_oldest(false);
+    erase_oldest(false);
     begin();
     thread_ = std::thread([this] { run(); });
 }
@@ -55,10 +66,27 @@ TakeKeeper::~TakeKeeper() {
     woken_.notify_all();
     thread_.join();
     recorder_.finish();
+    try {
+        ledger_.reconcile(kept_files(config_.folder, rig_));
+        ledger_.save();
+    } catch (const std::exception& error) {
+        log_error("what this rig keeps: {}", error.what());
+    }
 }
 
 void TakeKeeper::offer(const std::shared_ptr<const PackedFrame>& frame) {
     if (frame->is_raw_pair) return;
+    {
+        const std::lock_guard lock(mutex_);
+        if (frame->trigger_index + clock_step_pulses < last_pulse_) pulses_went_back_ = true;
+        last_pulse_ = frame->trigger_index;
+        if (pulses_went_back_) {
+            held_.push_back(frame);
+            if (held_.size() > most_held) held_.pop_front();
+            woken_.notify_all();
+            return;
+        }
+    }
     recorder_.offer(ArrivedFrame{0, frame, {}, MonotonicClock::now(), TaiClock::now()});
 }
 
@@ -68,49 +96,97 @@ void TakeKeeper::begin() {
 
 void TakeKeeper::run() {
     const std::chrono::duration<double, std::ratio<60>> length(config_.minutes);
-    MonotonicTime begun = MonotonicClock::now();
+    MonotonicTime begun = MonotonicClock::now(), looked = begun;
     for (;;) {
+        bool pulses_go_back = false;
         {
             std::unique_lock lock(mutex_);
-            if (woken_.wait_for(lock, look_every, [&] { return is_stopping_; })) return;
+            woken_.wait_for(lock, look_every, [&] { return is_stopping_ || pulses_went_back_; });
+            if (is_stopping_) return;
+            pulses_go_back = pulses_went_back_;
         }
         const MonotonicTime now = MonotonicClock::now();
+        ledger_.advance(std::chrono::duration<double>(now - std::exchange(looked, now)).count());
         const TakePhase phase = recorder_.state().phase;
         const bool has_failed = phase == TakePhase::failed;
         // Nothing is published, so there is nothing to end.
         if (phase == TakePhase::opening) begun = now;
-        if (has_failed ? now - begun < patience_with_disk : now - begun < length) continue;
+        const bool is_due = has_failed ? now - begun >= patience_with_disk : now - begun >= length;
+        if (!is_due && !pulses_go_back) continue;
         try {
-            recorder_.finish();
-            drop_oldest(has_failed && free_disk_mb(config_.folder) < least_room_mb);
-            begin();
+            rotate(pulses_go_back);
         } catch (const Error& error) {
             log_error("what this rig keeps: {}", error.what());
+            const std::lock_guard lock(mutex_);
+            pulses_went_back_ = false;
+            held_.clear();
         }
         begun = now;
     }
 }
 
-void TakeKeeper::drop_oldest(bool at_least_one) {
-    std::vector<KeptFile> files = kept_files(config_.folder, rig_);
-    std::uint64_t bytes = 0;
-    for (const KeptFile& file : files) bytes += file.bytes;
-    const auto oldest = std::filesystem::file_time_type::clock::now() -
-                        std::chrono::duration_cast<std::chrono::seconds>(
-                            std::chrono::duration<double, std::ratio<3600>>(config_.hours));
-    while (!files.empty() &&
-           (at_least_one || static_cast<double>(bytes) > 1e9 * config_.gigabytes ||
-            files.front().written < oldest)) {
-        std::error_code error;
-        std::filesystem::remove(files.front().path, error);
-        if (error) fail("{} cannot be removed: {}", files.front().path.string(), error.message());
-        at_least_one = false;
-        bytes -= files.front().bytes;
-        files.erase(files.begin());
-    }
+/// Finishes this file and starts the next one.
+void TakeKeeper::rotate(bool pulses_go_back) {
+    if (pulses_go_back)
+        log_warning(
+            "what this rig keeps: the pulses went back, as after a clock that was set back; the "
+            "frames go on in another file");
+    recorder_.finish();
+    erase_oldest(free_disk_mb(config_.folder) < least_room_mb);
+    begin();
+    // The lock is held so that no newer frame is offered before these.
     const std::lock_guard lock(mutex_);
-    files_ = files.size();
+    for (const auto& frame : held_)
+        recorder_.offer(ArrivedFrame{0, frame, {}, MonotonicClock::now(), TaiClock::now()});
+    held_.clear();
+    pulses_went_back_ = false;
+}
+
+void TakeKeeper::erase_oldest(bool disk_is_full) {
+    const std::vector<KeptFile> files = kept_files(config_.folder, rig_);
+    ledger_.reconcile(files);
+    std::uint64_t bytes = 0;
+    std::map<std::string, std::uint64_t> bytes_of;
+    for (const KeptFile& file : files) {
+        bytes += file.bytes;
+        bytes_of[file.path.filename().string()] = file.bytes;
+    }
+    std::size_t left = files.size();
+    constexpr double s_per_hour = 3600;
+    for (const KeepLedger::Entry& oldest : ledger_.entries()) {
+        std::string why;
+        if (disk_is_full)
+            why = fmt::format("its disk has less than {:g} MB left", least_room_mb);
+        else if (static_cast<double>(bytes) > 1e9 * config_.gigabytes)
+            why = fmt::format("all files together were larger than {:g} GB", config_.gigabytes);
+        else if (ledger_.age_s(oldest) > s_per_hour * config_.hours)
+            why = fmt::format("{:g} hours were kept since", config_.hours);
+        if (why.empty()) break;
+        const std::filesystem::path path = config_.folder / oldest.name;
+        std::error_code error;
+        std::filesystem::remove(path, error);
+        if (error) fail("{} cannot be removed: {}", path.string(), error.message());
+        const std::string sentence =
+            fmt::format("{} ({:.1f} MB), since {}", oldest.name,
+                        static_cast<double>(bytes_of[oldest.name]) / 1e6, why);
+        log_info("what this rig keeps: erased {}", sentence);
+        disk_is_full = false;
+        bytes -= bytes_of[oldest.name];
+        --left;
+        const std::lock_guard lock(mutex_);
+        ++erased_;
+        last_erased_ = sentence;
+    }
+    ledger_.reconcile(kept_files(config_.folder, rig_));
+    ledger_.save();
+    const std::lock_guard lock(mutex_);
+    files_ = left;
     bytes_ = bytes;
+}
+
+std::uint64_t TakeKeeper::erased() const {
+    const std::lock_guard lock(mutex_);
+    return erased_;
 }
 
 std::string TakeKeeper::line() const {
@@ -121,6 +197,7 @@ std::string TakeKeeper::line() const {
                                    config_.folder.string(), state.mb_s);
     for (const TakeState::Rig& rig : state.rigs)
         if (rig.dropped > 0) text += fmt::format(", {} frames left out", rig.dropped);
+    if (erased_ > 0) text += fmt::format(", erased {} files, the last {}", erased_, last_erased_);
     if (!state.failure.empty()) text += "; " + state.failure;
     return text;
 }

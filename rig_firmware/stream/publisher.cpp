@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/base/files/descriptor_limit.h"
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
 #include "common/config/endpoint.h"
@@ -19,7 +20,12 @@ namespace {
 /// Of the thread that reads what hosts fetch.
 constexpr int fetch_nice = 10;
 
+/// What a daemon opens after this point: sockets of ZeroMQ with some hosts, the GPU, cameras,
+/// files.
+constexpr std::size_t descriptors_of_a_daemon = 48;
+
 FrameServer::Settings settings_of(const RigConfig::Stream& config) {
+    require_descriptors(descriptors_of_a_daemon, "a rig");
     if (config.key_file.empty() && !parse_endpoint(config.bind, "stream.bind").loopback)
         fail(
             "stream.bind = \"{}\" can be reached from other computers, which needs keys: set "
@@ -117,7 +123,12 @@ std::shared_ptr<const PackedFrame> Publisher::publish(RigFrame frame) {
         return true;
     });
     if (!is_wanted) return nullptr;
-    auto packed = std::make_shared<const PackedFrame>(impl_->encoder.encode(frame));
+    std::shared_ptr<const PackedFrame> packed;
+    try {
+        packed = std::make_shared<const PackedFrame>(impl_->encoder.encode(frame));
+    } catch (const Error& error) {
+        throw FrameRefused(error.what());
+    }
     impl_->server.tell([&](HostLinks& links) { links.offer(packed); });
     return packed;
 }

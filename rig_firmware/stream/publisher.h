@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/error.h"
 #include "common/config/rig_config.h"
 #include "common/serve/host_links.h"
 #include "common/wire/frame_message.h"
@@ -19,6 +20,12 @@ struct PublisherStatus {
     std::uint64_t malformed = 0;            ///< messages that were no host's
     std::uint64_t refused_fetches = 0;      ///< of hosts, where this rig keeps nothing
     std::uint64_t refused_connections = 0;  ///< of strangers
+};
+
+/// The frame holds a value that may not travel: this frame is lost, and publishing goes on.
+class FrameRefused : public Error {
+  public:
+    using Error::Error;
 };
 
 /// The first frame that is kept of the pulses `from` to before `to`; null if none is. May take its
@@ -42,9 +49,10 @@ class Publisher {
     ~Publisher();
 
     /// Packs on the calling thread and never waits for the network. `rig`, `session`, `published`,
-    /// pack_ms and two of the counters are filled in here. Throws Error naming the first value of
-    /// the frame that may not travel, or why publishing came to an end. A raw pair that no host
-    /// asks for is not packed, and null returned; else the packed frame. One thread at a time.
+    /// pack_ms and two of the counters are filled in here. Throws FrameRefused naming the first
+    /// value of the frame that may not travel, or Error, why publishing came to an end. A raw pair
+    /// that no host asks for is not packed, and null returned; else the packed frame. One thread at
+    /// a time.
     std::shared_ptr<const PackedFrame> publish(RigFrame frame);
 
     /// A host asks for the raw pair of this pulse. Any thread.

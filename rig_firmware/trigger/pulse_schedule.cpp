@@ -7,6 +7,8 @@ namespace vantage {
 std::uint64_t PulseSchedule::next(TaiTime now, std::uint64_t first) {
     constexpr std::uint64_t clock_step_pulses = 2;
     const std::uint64_t passed = grid_.index_at_or_before(now);
+    if (last_ && *last_ > passed + clock_step_pulses && *last_ >= first) begun_ = first;
+    if (begun_ == first) first = 0;
     const std::uint64_t coming = std::max(passed + 1, first);
     if (!last_) return coming;
     if (*last_ > passed + clock_step_pulses) {

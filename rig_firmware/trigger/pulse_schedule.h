@@ -17,7 +17,8 @@ class PulseSchedule {
 
     /// The pulse to wait for: the first that is still to come, though none before `first` and none
     /// twice. Pulses that passed since the last one are skipped. If the clock was set back by more
-    /// than two periods, the pulses go back with it.
+    /// than two periods, the pulses go back with it: `first`, which had begun, is waited for no
+    /// more.
     std::uint64_t next(TaiTime now, std::uint64_t first);
 
     /// At the moment of sending it: its lateness, or empty where it is beyond the limit and the
@@ -32,7 +33,8 @@ class PulseSchedule {
   private:
     PulseGrid grid_;
     std::chrono::nanoseconds late_limit_;
-    std::optional<std::uint64_t> last_;  ///< sent or skipped
+    std::optional<std::uint64_t> last_;   ///< sent or skipped
+    std::optional<std::uint64_t> begun_;  ///< a `first` of before the clock was set back
     std::uint64_t sent_ = 0, skipped_ = 0, clock_steps_ = 0;
 };
 

@@ -45,8 +45,8 @@ struct PulseSender::Impl {
             sleep_until(std::min(deadline - spin, now + std::chrono::nanoseconds(sleep_slice)));
             now = TaiClock::now();
         }
-        while (now < deadline) now = TaiClock::now();
-        return !stopping;
+        while (now < deadline && now >= begun - sleep_slice) now = TaiClock::now();
+        return !stopping && now >= deadline;
     }
 
     void run(std::promise<std::vector<std::string>> realtime) {
@@ -83,8 +83,9 @@ struct PulseSender::Impl {
         if (on_sent) on_sent(index);
         const TaiTime end = begun + timing.pulse_width();
         // A pulse that has begun is ended in time, whatever else is to stop.
+        const MonotonicTime monotonic_end = MonotonicClock::now() + timing.pulse_width();
         sleep_until(end - spin);
-        while (TaiClock::now() < end) {
+        while (TaiClock::now() < end && MonotonicClock::now() < monotonic_end) {
         }
         line->set(false);
         const TaiTime ended = TaiClock::now();

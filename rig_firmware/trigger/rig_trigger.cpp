@@ -33,6 +33,10 @@ class IndexingTrigger : public RigTrigger {
         const std::lock_guard lock(mutex_);
         return indexer_.index_of(stamp);
     }
+    void clock_was_set() override {
+        const std::lock_guard lock(mutex_);
+        indexer_.clock_was_set();
+    }
     std::uint64_t pulses() const override {
         const std::lock_guard lock(mutex_);
         return indexer_.pulses();
@@ -51,9 +55,9 @@ class IndexingTrigger : public RigTrigger {
         const auto ahead = grid_.time_of(first_pulse) - TaiClock::now();
         if (ahead > farthest)
             fail(
-                "the host announced pulse {} as the first of the take, and at this rig's {:g} Hz "
-                "that is {} hours ahead: give rate_hz in stage.toml and in [source] of rig.toml "
-                "the same value",
+                "the host announced pulse {} as its first, and at this rig's {:g} Hz and by its "
+                "clock that is {} hours ahead: see that this computer's clock is set, and give "
+                "rate_hz in stage.toml and in [source] of rig.toml the same value",
                 first_pulse, grid_.rate_hz(),
                 std::chrono::duration_cast<std::chrono::hours>(ahead).count());
     }

@@ -39,6 +39,8 @@ class RigTrigger {
 
     /// The pulse of the frame with this time stamp; empty: unsynchronized.
     virtual std::optional<std::uint64_t> index_of(TaiTime stamp) = 0;
+    /// CLOCK_TAI was set: what is known of pulses before belongs to another count.
+    virtual void clock_was_set() = 0;
     /// Pulses sent or seen so far.
     virtual std::uint64_t pulses() const = 0;
     /// Pulses since the first frame for which none came.

@@ -2,12 +2,13 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "host_app/control/ports/messages/line_splitter.h"
 #include "host_app/control/ports/messages/rosstalk_map.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace vantage;
     static const RossTalkMap map = RossTalkMap::load({});
-    RossTalkLines lines;
+    LineSplitter lines;
     lines.take({reinterpret_cast<const char*>(data), size});
     while (const auto line = lines.next()) {
         if (line->find("\r\n") != std::string::npos) std::abort();

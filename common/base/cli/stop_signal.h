@@ -6,7 +6,8 @@ namespace vantage {
 
 /// Turns SIGINT and SIGTERM into a state that a loop polls, so that a program ends in order: files
 /// finished, sockets closed, the summary printed. Construct it before any other thread starts,
-/// since threads inherit the blocked signals. A second signal ends the program at once.
+/// since threads inherit the blocked signals. A second signal ends the program at once, unless it
+/// follows the first one within `same_request`: then it is the same request, sent twice.
 class StopSignal {
   public:
     /// Throws Error if the system refuses a signal descriptor.
@@ -15,6 +16,8 @@ class StopSignal {
     StopSignal(const StopSignal&) = delete;
     StopSignal& operator=(const StopSignal&) = delete;
 
+    /// A second signal within this time is the same request.
+    static constexpr std::chrono::milliseconds same_request{500};
     /// How often a loop that waits for other events should poll for a stop signal.
     static constexpr std::chrono::milliseconds look_period{50};
 

@@ -64,8 +64,8 @@ inline MonotonicTime monotonic_from_ns(std::int64_t ns) {
     return MonotonicTime(std::chrono::nanoseconds(ns));
 }
 
-/// Sleeps until the absolute time on CLOCK_TAI (clock_nanosleep, TIMER_ABSTIME); returns at once if
-/// it has passed.
+/// Sleeps until the absolute time on CLOCK_TAI; returns at once if it has passed. It returns early
+/// if CLOCK_TAI is set back: it never sleeps longer than was left at the call.
 void sleep_until(TaiTime deadline);
 
 }  // namespace vantage

@@ -7,6 +7,9 @@
 #include <fmt/format.h>
 #include <time.h>
 
+#include "common/base/log.h"
+#include "common/base/time/utc_offset.h"
+
 namespace vantage {
 namespace {
 
@@ -44,6 +47,9 @@ std::string drop_frame_code(std::int64_t n, int numbers_per_second) {
 }  // namespace
 
 std::optional<TimeLabel> TimeLabel::parse(std::string_view text) {
+    std::string without_offset(text);
+    const std::optional<int> utc_offset_s = take_utc_offset(without_offset);
+    text = without_offset;
     constexpr std::size_t to_the_second = 8, to_the_frame = 11;
     constexpr int hours_a_day = 24, of_sixty = 60;
     if (text.size() != to_the_second && text.size() != to_the_frame) return std::nullopt;
@@ -56,6 +62,7 @@ std::optional<TimeLabel> TimeLabel::parse(std::string_view text) {
     if (numbers[0] >= hours_a_day || numbers[1] >= of_sixty || numbers[2] >= of_sixty)
         return std::nullopt;
     TimeLabel label{numbers[0], numbers[1], numbers[2]};
+    label.utc_offset_s = utc_offset_s;
     if (text.size() == to_the_frame) label.frame = numbers[3];
     return label;
 }
@@ -88,22 +95,62 @@ std::string TimecodeClock::of_pulse(std::uint64_t frame, int tai_offset_s) const
 
 std::optional<std::uint64_t> TimecodeClock::find(const TimeLabel& label, std::uint64_t first,
                                                  std::uint64_t last, int tai_offset_s) const {
-    const auto label_of = [&](std::uint64_t pulse) {
-        return TimeLabel::parse(of_pulse(pulse, tai_offset_s)).value_or(TimeLabel{});
+    const std::optional<std::uint64_t> found = find_last(label, first, last, tai_offset_s);
+    if (!found || label.utc_offset_s) return found;
+    // Clocks are set back by an hour, or by half an hour on Lord Howe Island.
+    constexpr double longest_s = 5400, shortest_s = 1500;
+    const auto longest = static_cast<std::uint64_t>(longest_s * grid_.rate_hz());
+    const auto shortest = static_cast<std::uint64_t>(shortest_s * grid_.rate_hz());
+    if (*found < first + shortest) return found;
+    const std::uint64_t from = std::max(first, *found - std::min(*found, longest));
+    if (find_last(label, from, *found - shortest, tai_offset_s)) {
+        const time_t utc_s = to_ns(grid_.time_of(*found)) / ns_per_second - tai_offset_s;
+        tm utc{};
+        gmtime_r(&utc_s, &utc);
+        log_info(
+            "{:02}:{:02}:{:02} occurs twice, since clocks were set back: {:02}:{:02}:{:02}Z is "
+            "taken; append Z or an offset such as +01:00 for the other",
+            label.hours, label.minutes, label.seconds, utc.tm_hour, utc.tm_min, utc.tm_sec);
+    }
+    return found;
+}
+
+TimeLabel TimecodeClock::label_of(std::uint64_t pulse, int tai_offset_s,
+                                  std::optional<int> utc_offset_s) const {
+    TimeLabel label = TimeLabel::parse(of_pulse(pulse, tai_offset_s)).value_or(TimeLabel{});
+    if (!utc_offset_s) return label;
+    // The numbers of frames are the same in every zone of whole minutes.
+    constexpr std::int64_t day_s = 86'400, hour_s = 3600, minute_s = 60;
+    const time_t utc_s = to_ns(grid_.time_of(pulse)) / ns_per_second - tai_offset_s;
+    tm local{};
+    localtime_r(&utc_s, &local);
+    const std::int64_t of_day_s = (hour_s * label.hours + minute_s * label.minutes + label.seconds +
+                                   *utc_offset_s - local.tm_gmtoff + 2 * day_s) %
+                                  day_s;
+    label.hours = static_cast<int>(of_day_s / hour_s);
+    label.minutes = static_cast<int>(of_day_s / minute_s % minute_s);
+    label.seconds = static_cast<int>(of_day_s % minute_s);
+    return label;
+}
+
+std::optional<std::uint64_t> TimecodeClock::find_last(const TimeLabel& label, std::uint64_t first,
+                                                      std::uint64_t last, int tai_offset_s) const {
+    const auto label_at = [&](std::uint64_t pulse) {
+        return label_of(pulse, tai_offset_s, label.utc_offset_s);
     };
     TimeLabel second_of_label = label;
     second_of_label.frame.reset();
     // Seconds are passed in half ones, so that none is missed; within one every pulse is looked at.
     const auto second = static_cast<std::uint64_t>(std::ceil(grid_.rate_hz()));
-    for (std::uint64_t at = first;; at += std::max<std::uint64_t>(1, second / 2)) {
-        at = std::min(at, last);
-        if (second_of_label.matches(label_of(at))) {
+    const std::uint64_t step = std::max<std::uint64_t>(1, second / 2);
+    for (std::uint64_t at = last;; at = at > first + step ? at - step : first) {
+        if (second_of_label.matches(label_at(at))) {
             const std::uint64_t end = std::min(last, at + second);
             for (std::uint64_t pulse = std::max(first, at - std::min(at, second)); pulse <= end;
                  ++pulse)
-                if (label.matches(label_of(pulse))) return pulse;
+                if (label.matches(label_at(pulse))) return pulse;
         }
-        if (at == last) return std::nullopt;
+        if (at == first) return std::nullopt;
     }
 }
 

@@ -11,15 +11,16 @@
 namespace vantage {
 
 /// A label of a frame as people type it: "hh:mm:ss:ff", drop-frame or not with ':' or ';' between
-/// the numbers, or "hh:mm:ss" for the first frame of the second. Every place that reads a typed
-/// time code reads it through this.
+/// the numbers, or "hh:mm:ss" for the first frame of the second. "Z" or an offset from UTC such as
+/// "+01:00" may follow. Every place that reads a typed time code reads it through this.
 struct TimeLabel {
     int hours = 0, minutes = 0, seconds = 0;
     std::optional<int> frame = {};
+    std::optional<int> utc_offset_s = {};  ///< seconds ahead of UTC; empty: local time
 
     /// Nothing: the text is no label.
     static std::optional<TimeLabel> parse(std::string_view text);
-    /// True where this has no frame, or the same one.
+    /// Compares the numbers. True where this has no frame, or the same one.
     bool matches(const TimeLabel& whole) const;
 };
 
@@ -40,7 +41,9 @@ class TimecodeClock {
     /// ahead of UTC (from RigSync for a rig, from KernelClock for this computer): 37 where TAI is
     /// set, 0 where it is not.
     std::string of_pulse(std::uint64_t trigger_index, int tai_offset_s) const;
-    /// Returns the first pulse from `first` to `last` that has this label, or nothing.
+    /// Returns the pulse from `first` to `last` that has this label, or nothing. If several pulses
+    /// share a number it is the first of them. If the label occurs twice, since clocks were set
+    /// back, it is the later one, and the log says so.
     std::optional<std::uint64_t> find(const TimeLabel& label, std::uint64_t first,
                                       std::uint64_t last, int tai_offset_s) const;
     /// Returns why no frame of any day has this label at this rate, as the rest of a sentence that
@@ -53,6 +56,12 @@ class TimecodeClock {
     }
 
   private:
+    /// The label in the zone of that offset; empty: local time.
+    TimeLabel label_of(std::uint64_t pulse, int tai_offset_s,
+                       std::optional<int> utc_offset_s) const;
+    std::optional<std::uint64_t> find_last(const TimeLabel& label, std::uint64_t first,
+                                           std::uint64_t last, int tai_offset_s) const;
+
     PulseGrid grid_;
     int frames_per_number_;   ///< above 1 only above 60 fps
     int numbers_per_second_;  ///< nominal: 30 for 29.97

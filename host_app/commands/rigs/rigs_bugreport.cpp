@@ -17,6 +17,7 @@
 #include "common/base/files/secrets.h"
 #include "common/base/log.h"
 #include "common/base/time/time.h"
+#include "common/config/socket_address.h"
 #include "common/wire/limits.h"
 #include "host_app/commands/rigs/rigs_commands.h"
 #include "host_app/session/options/common_options.h"
@@ -101,6 +102,14 @@ class ReportFolder {
     fs::path above_;
 };
 
+/// The keyboard layout of this computer, as its configuration file states it.
+std::string keyboard_words() {
+    std::error_code ignored;
+    for (const char* file : {"/etc/default/keyboard", "/etc/vconsole.conf"})
+        if (fs::is_regular_file(file, ignored)) return read_text_file(file, max_report_bytes);
+    return "not set";
+}
+
 /// Requests a report of every rig and waits until each has answered or cannot, or until the time is
 /// up.
 ReceiverStatus gather(const StageConfig& stage, double wait_s, const ReportFolder& folder) {
@@ -155,6 +164,8 @@ void run(const ReportOptions& options) {
         "status.json",
         nlohmann::ordered_json{{"version", version()},
                                {"computer", computer_words()},
+                               {"addresses", own_addresses()},
+                               {"keyboard", keyboard_words()},
                                {"sync_proof", to_json(proof, std::chrono::system_clock::now())},
                                {"rigs", rigs}}
             .dump(2, ' ', false, nlohmann::json::error_handler_t::replace));

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "host_app/flight/orbit_view.h"
 
 namespace vantage {
@@ -60,26 +62,42 @@ std::array<std::byte, freed_bytes> encode_freed(const FreedCamera& camera) {
     return bytes;
 }
 
-std::optional<FreedCamera> decode_freed(std::span<const std::byte> message) {
-    if (message.size() != freed_bytes || message[0] != type_d1 ||
-        message.back() != checksum_of(message))
-        return std::nullopt;
+FreedReading read_freed(std::span<const std::byte> message) {
+    const auto number = [](std::byte byte) { return std::to_integer<unsigned>(byte); };
+    if (message.size() != freed_bytes)
+        return {
+            {},
+            fmt::format("{} bytes, where a FreeD D1 message has {}", message.size(), freed_bytes)};
+    if (message[0] != type_d1)
+        return {{},
+                fmt::format("a message of type 0x{:02x}, where FreeD D1 has 0x{:02x}",
+                            number(message[0]), number(type_d1))};
+    if (message.back() != checksum_of(message))
+        return {{},
+                fmt::format("a FreeD message with the checksum 0x{:02x}, where its bytes give "
+                            "0x{:02x}",
+                            number(message.back()), number(checksum_of(message)))};
     const auto angle_rad = [&](int at) {
         return signed_24_bits(&message[static_cast<std::size_t>(at)]) / steps_per_degree / deg;
     };
     const auto metres = [&](int at) {
         return signed_24_bits(&message[static_cast<std::size_t>(at)]) / steps_per_mm / mm;
     };
-    const PanTiltRoll turn{angle_rad(2), angle_rad(5), angle_rad(8)};
-    constexpr double zenith_rad = std::numbers::pi / 2;
-    if (std::abs(turn.tilt_rad) > zenith_rad) return std::nullopt;
+    PanTiltRoll turn{angle_rad(2), angle_rad(5), angle_rad(8)};
+    // A head that stands upright may round to a step or two beyond it.
+    constexpr double zenith_rad = std::numbers::pi / 2, rounding_rad = 0.1 / deg;
+    if (std::abs(turn.tilt_rad) > zenith_rad + rounding_rad)
+        return {{},
+                fmt::format("a FreeD message with a tilt of {:.2f} degrees, which is beyond 90",
+                            turn.tilt_rad * deg)};
+    turn.tilt_rad = std::clamp(turn.tilt_rad, -zenith_rad, zenith_rad);
     FreedCamera camera;
     camera.id = std::to_integer<std::uint8_t>(message[1]);
     camera.world_from_camera.linear() = turned(turn);
     camera.world_from_camera.translation() = Eigen::Vector3d(metres(11), metres(17), -metres(14));
     camera.zoom = unsigned_24_bits(&message[20]);
     camera.focus = unsigned_24_bits(&message[23]);
-    return camera;
+    return {camera, {}};
 }
 
 FreedCamera freed_camera(const CameraState& camera, std::uint8_t id) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "host_app/flight/camera_state.h"
 #include "host_app/flight/orbit_view.h"
@@ -21,8 +22,16 @@ struct FreedCamera {
 
 constexpr std::size_t freed_bytes = 29;
 std::array<std::byte, freed_bytes> encode_freed(const FreedCamera& camera);
+/// Result of reading a message: its camera, or a sentence about what is wrong with it.
+struct FreedReading {
+    std::optional<FreedCamera> camera;
+    std::string fault;
+};
+FreedReading read_freed(std::span<const std::byte> message);
 /// Empty if the message is not a D1, its checksum is wrong, or its tilt is beyond the vertical.
-std::optional<FreedCamera> decode_freed(std::span<const std::byte> message);
+inline std::optional<FreedCamera> decode_freed(std::span<const std::byte> message) {
+    return read_freed(message).camera;
+}
 
 /// A FreeD camera with the lens units of Vantage: zoom is the horizontal field of view in
 /// thousandths of a degree, and focus is in millimetres.

@@ -3,6 +3,7 @@
 #include "common/base/cli/nearest_name.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/refused_inputs.h"
 
 namespace vantage {
 
@@ -14,6 +15,12 @@ std::unique_ptr<ControlPort> open_port(const std::string& text, const ControlBen
         schemes.push_back(entry.scheme);
     }
     fail("the control {} is of no kind there is; {}", url.shown, suggest_name(url.scheme, schemes));
+}
+
+void ControlPort::refuse_input(std::string_view protocol, std::span<const std::byte> input,
+                               std::string sentence) {
+    note_refused_input(protocol, input, sentence);
+    refuse(&PortStats::malformed, std::move(sentence));
 }
 
 NetworkPlace listening_place_of(OutputUrl url) {

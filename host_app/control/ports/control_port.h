@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host_app/control/ports/control_bench.h"
@@ -42,6 +44,9 @@ class ControlPort {
         ++(stats_.*counter);
         stats_.last_refusal = std::move(sentence);
     }
+    /// Counts an input that the protocol does not allow, and keeps it for bug reports.
+    void refuse_input(std::string_view protocol, std::span<const std::byte> input,
+                      std::string sentence);
     PortStats stats_;
 };
 

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "common/base/error.h"
+#include "host_app/sound/alsa_capture.h"
 
 namespace vantage {
 namespace {
@@ -41,7 +42,7 @@ void MidiSequencer::Close::operator()(_snd_seq* sequencer) const { snd_seq_close
 
 MidiSequencer::MidiSequencer(std::string wanted, std::string what)
     : wanted_(lower_case(std::move(wanted))), what_(std::move(what)) {
-    // The library would write lines of its own about what is missing.
+    keep_alsa_log();
     if (access(sequencer_device, F_OK) != 0)
         fail("{}: this computer has no MIDI sequencer ({}): load it with `sudo modprobe snd-seq`",
              what_, sequencer_device);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -12,12 +13,16 @@ namespace {
 
 constexpr int pressed_from = 64, lower_half = 32, seven_bits = 7;
 constexpr int most_fine_value = (1 << 14) - 1;
+/// Of an encoder in one message: those that count faster turns send some ten. More is another
+/// encoding, in which one click would leap.
+constexpr int most_clicks = 24;
 
 /// Steps of an encoder's message; 0: neither way.
 int encoder_steps(MidiTravel travel, int value) {
     constexpr int half = 64;
     if (travel == MidiTravel::twos) return value < half ? value : value - 2 * half;
     if (travel == MidiTravel::binary_offset) return value - half;
+    if (travel == MidiTravel::ends) return value < half ? -1 : 1;
     return value < half ? value : half - value;
 }
 
@@ -104,7 +109,15 @@ MidiSurface::Outcome MidiSurface::move(const MidiAxisMap& axis, const MidiContro
         steps = is_first ? 0 : (now - was->second) * axis.travel_steps;
         was->second = now;
     } else {
-        steps = encoder_steps(axis.travel, value);
+        const int clicks = encoder_steps(axis.travel, value);
+        if (std::abs(clicks) > most_clicks)
+            return {Outcome::Kind::malformed,
+                    {},
+                    fmt::format("{}: the value {} would be {} steps at once, where a hand turns {} "
+                                "at most; its encoding is another (\"twos\", \"offset\" for 63 and "
+                                "65, \"sign\", \"127/0\")",
+                                to_text(control), value, clicks, most_clicks)};
+        steps = clicks;
     }
     steps = std::clamp(steps * factor_of(axis.map), -most_steps, most_steps);
     if (axis.map.action != AxisAction::command || steps == 0) return {};

@@ -10,7 +10,7 @@
 
 namespace vantage {
 
-/// A TCP socket that listens, and whoever is connected to it.
+/// TCP sockets that listen at every address of a place, and whoever is connected to them.
 class TcpListener {
   public:
     /// Throws Error, naming `what`, if the place is taken.
@@ -36,7 +36,7 @@ class TcpListener {
 
     std::string what_;
     std::size_t most_peers_;
-    UniqueFd fd_;
+    std::vector<UniqueFd> fds_;  ///< one for each address of the place
     std::vector<Peer> peers_;
     int next_number_ = 1;
     std::uint64_t turned_away_ = 0;

@@ -3,13 +3,14 @@
 #include <cerrno>
 #include <cstring>
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
-#include <netdb.h>
+#include <ifaddrs.h>
+#include <net/if.h>
 #include <poll.h>
 #include <sys/socket.h>
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 
 namespace vantage {
 namespace {
@@ -17,68 +18,96 @@ namespace {
 /// What waits in the kernel is old: a short row of messages is enough.
 constexpr int receive_buffer_bytes = 1 << 16;
 
-in_port_t& port_of(SocketAddress& address) {
-    return address.bytes.ss_family == AF_INET6
-               ? reinterpret_cast<sockaddr_in6&>(address.bytes).sin6_port
-               : reinterpret_cast<sockaddr_in&>(address.bytes).sin_port;
+UniqueFd udp_fd(int family) {
+    return UniqueFd(::socket(family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+}
+
+bool join(int fd, const SocketAddress& group, unsigned interface) {
+    if (group.family() == AF_INET6) {
+        ipv6_mreq request{reinterpret_cast<const sockaddr_in6&>(group.bytes).sin6_addr, interface};
+        return setsockopt(fd, IPPROTO_IPV6, IPV6_JOIN_GROUP, &request, sizeof request) == 0;
+    }
+    ip_mreqn request{};
+    request.imr_multiaddr = reinterpret_cast<const sockaddr_in&>(group.bytes).sin_addr;
+    request.imr_ifindex = static_cast<int>(interface);
+    return setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) == 0;
+}
+
+/// On every network of this computer that is up. Throws Error if none takes part.
+void join_everywhere(int fd, const SocketAddress& group, const std::string& what) {
+    std::string joined;
+    int error = ENODEV;
+    const struct if_nameindex* const interfaces = if_nameindex();
+    for (const auto* each = interfaces; each && each->if_index != 0; ++each) {
+        if (join(fd, group, each->if_index))
+            joined += fmt::format("{}{}", joined.empty() ? "" : ", ", each->if_name);
+        else
+            error = errno;
+    }
+    if (interfaces) if_freenameindex(const_cast<struct if_nameindex*>(interfaces));
+    if (joined.empty())
+        fail("{}: the group {} cannot be joined on any network of this computer ({})", what,
+             group.host(), std::strerror(error));
+    log_info("{}: joined the group {} on {}", what, group.host(), joined);
 }
 
 }  // namespace
 
-bool SocketAddress::operator==(const SocketAddress& other) const { return text() == other.text(); }
-
-SocketAddress SocketAddress::with_port(std::uint16_t port) const {
-    SocketAddress address = *this;
-    port_of(address) = htons(port);
-    return address;
-}
-
-std::string SocketAddress::text() const {
-    char host[NI_MAXHOST] = "?", port[NI_MAXSERV] = "?";
-    getnameinfo(reinterpret_cast<const sockaddr*>(&bytes), size, host, sizeof host, port,
-                sizeof port, NI_NUMERICHOST | NI_NUMERICSERV);
-    return fmt::format("{}:{}", host, port);
-}
-
 SocketAddress resolve(const NetworkPlace& place, const std::string& what) {
-    std::string host = place.host;
-    if (host.starts_with('[')) host = host.substr(1, host.size() - 2);
-    addrinfo hints{}, *found = nullptr;
-    hints.ai_socktype = SOCK_DGRAM;
-    const int error = getaddrinfo(host.c_str(), std::to_string(place.port).c_str(), &hints, &found);
-    if (error != 0) fail("{}: nobody knows the host {} ({})", what, host, gai_strerror(error));
-    SocketAddress address;
-    address.size = found->ai_addrlen;
-    std::memcpy(&address.bytes, found->ai_addr, found->ai_addrlen);
-    freeaddrinfo(found);
-    return address;
-}
-
-UdpSocket::UdpSocket(int family)
-    : fd_(::socket(family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
-    if (!fd_) fail("no UDP socket can be had: {}", std::strerror(errno));
+    return resolve_all(place.host, place.port, what).front();
 }
 
 UdpSocket UdpSocket::bound(const NetworkPlace& place, const std::string& what) {
-    const SocketAddress address = resolve(place, what);
-    UdpSocket socket(address.bytes.ss_family);
+    UdpSocket socket;
     socket.what_ = what;
-    const int on = 1;
-    setsockopt(socket.fd_.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes,
-               sizeof receive_buffer_bytes);
-    setsockopt(socket.fd_.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
-    if (::bind(socket.fd_.get(), reinterpret_cast<const sockaddr*>(&address.bytes), address.size) !=
-        0)
-        fail("{}: cannot listen on port {} ({}); choose another, or end what has it", what,
-             place.port, std::strerror(errno));
+    const int on = 1, off = 0;
+    std::vector<ListenAttempt> attempts;
+    for (const SocketAddress& address : resolve_all(place.host, place.port, what)) {
+        UniqueFd fd = udp_fd(address.family());
+        attempts.push_back({address, fd ? 0 : errno});
+        if (!fd) continue;
+        setsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes,
+                   sizeof receive_buffer_bytes);
+        setsockopt(fd.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
+        // Several programs of this computer may listen to a group.
+        if (address.is_multicast()) setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+        if (address.family() == AF_INET6)
+            setsockopt(fd.get(), IPPROTO_IPV6, IPV6_V6ONLY, address.is_any() ? &off : &on,
+                       sizeof on);
+        if (::bind(fd.get(), address.get(), address.size) != 0) {
+            attempts.back().error = errno;
+            continue;
+        }
+        if (address.is_multicast()) join_everywhere(fd.get(), address, what);
+        socket.listeners_.push_back({std::move(fd), address.family(), 0});
+    }
+    check_attempts(attempts, what);
     return socket;
 }
 
-UdpSocket UdpSocket::sending(const SocketAddress& to) { return UdpSocket(to.bytes.ss_family); }
+UdpSocket UdpSocket::sending(const SocketAddress& to) {
+    UdpSocket socket;
+    UniqueFd fd = udp_fd(to.family());
+    if (!fd) fail("no UDP socket can be had: {}", std::strerror(errno));
+    socket.listeners_.push_back({std::move(fd), to.family(), 0});
+    return socket;
+}
 
 std::optional<UdpSocket::Datagram> UdpSocket::receive(std::chrono::milliseconds most) {
-    pollfd waiting{fd_.get(), POLLIN, 0};
-    if (::poll(&waiting, 1, static_cast<int>(most.count())) <= 0) return std::nullopt;
+    std::vector<pollfd> waiting;
+    for (const Listener& listener : listeners_) waiting.push_back({listener.fd.get(), POLLIN, 0});
+    if (::poll(waiting.data(), waiting.size(), static_cast<int>(most.count())) <= 0)
+        return std::nullopt;
+    for (std::size_t i = 0; i < listeners_.size(); ++i) {
+        const std::size_t at = (next_ + i) % listeners_.size();
+        if (waiting[at].revents == 0) continue;
+        next_ = at + 1;
+        return receive_from(listeners_[at]);
+    }
+    return std::nullopt;
+}
+
+std::optional<UdpSocket::Datagram> UdpSocket::receive_from(Listener& listener) {
     Datagram datagram;
     iovec part{buffer_.data(), buffer_.size()};
     alignas(cmsghdr) char control[CMSG_SPACE(sizeof(std::uint32_t))];
@@ -89,7 +118,7 @@ std::optional<UdpSocket::Datagram> UdpSocket::receive(std::chrono::milliseconds 
     header.msg_iovlen = 1;
     header.msg_control = control;
     header.msg_controllen = sizeof control;
-    const ssize_t size = ::recvmsg(fd_.get(), &header, 0);
+    const ssize_t size = ::recvmsg(listener.fd.get(), &header, 0);
     if (size < 0) {
         // A peer that is gone says so at the next call; that is no fault of this socket.
         if (errno == EAGAIN || errno == EINTR || errno == ECONNREFUSED) return std::nullopt;
@@ -100,8 +129,8 @@ std::optional<UdpSocket::Datagram> UdpSocket::receive(std::chrono::milliseconds 
         if (c->cmsg_level == SOL_SOCKET && c->cmsg_type == SO_RXQ_OVFL) {
             std::uint32_t count = 0;
             std::memcpy(&count, CMSG_DATA(c), sizeof count);
-            overrun_ += static_cast<std::uint32_t>(count - last_overrun_);
-            last_overrun_ = count;
+            overrun_ += static_cast<std::uint32_t>(count - listener.last_overrun);
+            listener.last_overrun = count;
         }
     datagram.from.size = header.msg_namelen;
     datagram.bytes = std::span<const std::byte>(buffer_).first(static_cast<std::size_t>(size));
@@ -109,9 +138,12 @@ std::optional<UdpSocket::Datagram> UdpSocket::receive(std::chrono::milliseconds 
 }
 
 bool UdpSocket::send(std::span<const std::byte> bytes, const SocketAddress& to) const {
-    return ::sendto(fd_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
-                    reinterpret_cast<const sockaddr*>(&to.bytes),
-                    to.size) == static_cast<ssize_t>(bytes.size());
+    for (const Listener& listener : listeners_)
+        if (listener.family == to.family())
+            return ::sendto(listener.fd.get(), bytes.data(), bytes.size(),
+                            MSG_DONTWAIT | MSG_NOSIGNAL, to.get(),
+                            to.size) == static_cast<ssize_t>(bytes.size());
+    return false;
 }
 
 }  // namespace vantage

@@ -7,31 +7,23 @@
 #include <optional>
 #include <span>
 #include <string>
-
-#include <netinet/in.h>
+#include <vector>
 
 #include "common/base/files/unique_fd.h"
+#include "common/config/socket_address.h"
 #include "host_app/output/output_url.h"
 
 namespace vantage {
 
-/// An address on a network with its port, IPv4 or IPv6.
-struct SocketAddress {
-    sockaddr_storage bytes{};
-    socklen_t size = 0;
-
-    bool operator==(const SocketAddress& other) const;
-    /// The same computer, at another port.
-    SocketAddress with_port(std::uint16_t port) const;
-    std::string text() const;
-};
-/// Throws Error, naming `what`, for a host that nobody knows.
+/// The first address of the place. Throws Error, naming `what`, for a name that does not resolve.
 SocketAddress resolve(const NetworkPlace& place, const std::string& what);
 
 /// A UDP socket that never waits when it sends.
 class UdpSocket {
   public:
-    /// Listens there. Throws Error, naming `what`, if the place is taken.
+    /// Listens at every address of the place, IPv4 and IPv6; a group of multicast it joins on every
+    /// network of this computer. Throws Error, naming `what` and the addresses, if the place is
+    /// taken or the group cannot be joined.
     static UdpSocket bound(const NetworkPlace& place, const std::string& what);
     /// Only sends, to places of this kind of address.
     static UdpSocket sending(const SocketAddress& to);
@@ -48,12 +40,18 @@ class UdpSocket {
     std::uint64_t overrun() const { return overrun_; }
 
   private:
-    explicit UdpSocket(int family);
+    struct Listener {
+        UniqueFd fd;
+        int family = 0;
+        std::uint32_t last_overrun = 0;
+    };
+    UdpSocket() = default;
+    std::optional<Datagram> receive_from(Listener& listener);
 
-    UniqueFd fd_;
+    std::vector<Listener> listeners_;
+    std::size_t next_ = 0;  ///< that is looked at first, so that none waits for another
     std::string what_;
     std::uint64_t overrun_ = 0;
-    std::uint32_t last_overrun_ = 0;
     std::array<std::byte, 65536> buffer_{};
 };
 

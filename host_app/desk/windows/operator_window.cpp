@@ -1,6 +1,7 @@
 #include "host_app/desk/windows/operator_window.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <numbers>
 #include <utility>
@@ -11,6 +12,7 @@
 #include <imgui.h>
 
 #include "common/base/error.h"
+#include "common/base/library_log.h"
 #include "common/base/log.h"
 #include "common/gl/context/limits.h"
 #include "host_app/control/table/control_command.h"
@@ -41,6 +43,23 @@ int glfw_key(std::string_view name) {
     return name.empty() ? GLFW_KEY_UNKNOWN : name.front();
 }
 
+/// Returns the punctuation keys that commands and the window itself use.
+std::string signs_of_commands() {
+    std::string signs = "-=";
+    for (const ControlCommand& command : control_commands()) {
+        const std::string_view name = command.key.name;
+        if (name.size() == 1 && !std::isalnum(static_cast<unsigned char>(name.front())))
+            signs += name;
+    }
+    return signs;
+}
+
+/// Returns the label of a key in the current keyboard layout; empty if it has none.
+std::string label_of_key(int key) {
+    const char* label = glfwGetKeyName(key, 0);
+    return label ? label : "";
+}
+
 /// Returns the command's argument if the key gives the command (1 for a command without one), or 0.
 int number_of_key(const ControlCommand& command, int key, bool with_control) {
     const int first = glfw_key(command.key.name);
@@ -57,6 +76,10 @@ int number_of_key(const ControlCommand& command, int key, bool with_control) {
 }  // namespace
 
 GlfwLibrary::GlfwLibrary() {
+    glfwSetErrorCallback([](int, const char* message) {
+        static LibraryLog log("GLFW", LogLevel::debug);
+        log.note(message ? message : "");
+    });
     if (!glfwInit())
         fail("cannot open a window ({}); use --headless to write the flight to files",
              glfw_reason());
@@ -68,7 +91,8 @@ void OperatorWindow::WindowDeleter::operator()(GLFWwindow* window) const {
     glfwDestroyWindow(window);
 }
 
-OperatorWindow::OperatorWindow(const std::string& title, int width_px, int height_px) {
+OperatorWindow::OperatorWindow(const std::string& title, int width_px, int height_px)
+    : caps_(label_of_key, signs_of_commands()) {
     if (GLFWmonitor* monitor = glfwGetPrimaryMonitor()) {
         int x = 0, y = 0, free_width = 0, free_height = 0;
         glfwGetMonitorWorkarea(monitor, &x, &y, &free_width, &free_height);
@@ -105,6 +129,8 @@ OperatorWindow::OperatorWindow(const std::string& title, int width_px, int heigh
     glfwSetWindowMaximizeCallback(window_.get(), on_maximised);
     ui_.emplace(letter_height_px(static_cast<float>(width_px), static_cast<float>(height_px), 1));
     renderer_.emplace(shaders_);
+    if (const std::string caps = caps_.words(); !caps.empty())
+        log_info("keys go by what is on their caps; on this keyboard {}", caps);
 }
 
 OperatorWindow::~OperatorWindow() = default;
@@ -114,6 +140,11 @@ OperatorWindow& OperatorWindow::of(GLFWwindow* window) {
 }
 
 bool OperatorWindow::closed() const { return glfwWindowShouldClose(window_.get()) != 0; }
+
+bool OperatorWindow::held_cap(int letter) const {
+    const int key = caps_.place_of(letter);
+    return key > 0 && held(key);
+}
 
 bool OperatorWindow::held(int key) const { return glfwGetKey(window_.get(), key) == GLFW_PRESS; }
 
@@ -152,6 +183,7 @@ void OperatorWindow::on_key(GLFWwindow* window, int key, int, int action, int mo
     OperatorWindow& self = of(window);
     if (action == GLFW_RELEASE) return;
     self.is_changed_ = true;
+    key = self.caps_.meant_by(key);
     if (self.prompt_.is_open()) return self.type(key);
     const bool with_control = (modifiers & GLFW_MOD_CONTROL) != 0;
     if (self.panel_.is_open()) return self.press_in_panel(key, with_control);
@@ -378,8 +410,9 @@ void OperatorWindow::on_scroll(GLFWwindow* window, double, double up) {
 void OperatorWindow::take_held_keys(double dt_s) {
     constexpr double turn_rad_s = 0.9, pan_widths_s = 0.35, dolly_s = 0.8, zoom_s = 0.6;
     const auto axis = [&](int less, int more) { return held(more) - held(less); };
+    const auto caps_axis = [&](int less, int more) { return held_cap(more) - held_cap(less); };
     const int nearer =
-        axis(GLFW_KEY_MINUS, GLFW_KEY_EQUAL) + axis(GLFW_KEY_KP_SUBTRACT, GLFW_KEY_KP_ADD);
+        caps_axis(GLFW_KEY_MINUS, GLFW_KEY_EQUAL) + axis(GLFW_KEY_KP_SUBTRACT, GLFW_KEY_KP_ADD);
     if (shows_outside() && (held(GLFW_KEY_LEFT_CONTROL) || held(GLFW_KEY_RIGHT_CONTROL))) {
         const int right = axis(GLFW_KEY_LEFT, GLFW_KEY_RIGHT);
         const int up = axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
@@ -390,9 +423,9 @@ void OperatorWindow::take_held_keys(double dt_s) {
     }
     input_.orbit_azimuth_rad += dt_s * turn_rad_s * axis(GLFW_KEY_LEFT, GLFW_KEY_RIGHT);
     input_.orbit_elevation_rad += dt_s * turn_rad_s * axis(GLFW_KEY_DOWN, GLFW_KEY_UP);
-    input_.pan_right_widths += dt_s * pan_widths_s * axis(GLFW_KEY_A, GLFW_KEY_D);
-    input_.pan_up_widths += dt_s * pan_widths_s * axis(GLFW_KEY_Q, GLFW_KEY_E);
-    input_.dolly += dt_s * dolly_s * axis(GLFW_KEY_S, GLFW_KEY_W);
+    input_.pan_right_widths += dt_s * pan_widths_s * caps_axis(GLFW_KEY_A, GLFW_KEY_D);
+    input_.pan_up_widths += dt_s * pan_widths_s * caps_axis(GLFW_KEY_Q, GLFW_KEY_E);
+    input_.dolly += dt_s * dolly_s * caps_axis(GLFW_KEY_S, GLFW_KEY_W);
     input_.zoom += dt_s * zoom_s * nearer;
 }
 

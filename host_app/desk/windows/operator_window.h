@@ -16,6 +16,7 @@
 #include "host_app/desk/panels/desk_parts.h"
 #include "host_app/desk/panels/wheel_panel.h"
 #include "host_app/desk/windows/gl_window.h"
+#include "host_app/desk/windows/key_caps.h"
 #include "host_app/desk/windows/key_guard.h"
 #include "host_app/desk/windows/rigs_window.h"
 #include "host_app/desk/windows/ui_renderer.h"
@@ -104,11 +105,14 @@ class OperatorWindow {
     static void on_maximised(GLFWwindow* window, int is_maximised);
     void take_held_keys(double dt_s);
     bool held(int key) const;
+    /// Whether the key is held whose cap has this letter or sign.
+    bool held_cap(int letter) const;
     void seek_at_cursor();
     void take_tab(bool with_shift, bool with_control);
     void show_rigs(const DeskState& state);
 
     GlfwLibrary glfw_;
+    KeyCaps caps_;
     std::unique_ptr<GLFWwindow, WindowDeleter> window_;
     ShaderLibrary shaders_;
     std::optional<UiContext> ui_;

@@ -19,7 +19,8 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
                                                 {"pkt_size", "1316"}},
                                     .encoder = format.encoder,
                                     .encoding = stream_encoding(url, format),
-                                    .has_sound = format.has_sound};
+                                    .has_sound = format.has_sound,
+                                    .is_listening = is_listening};
     // libsrt tells FFmpeg no more of a refusal than of nobody.
     if (!is_listening)
         settings.silence =

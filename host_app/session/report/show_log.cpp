@@ -29,7 +29,9 @@ std::string ProgressLog::line(const LiveShow& show) {
     const InstantThread::Stats instants = show.instant_stats();
     if (stats.pictures == 0) {
         instants_ = instants.prepared;
-        if (status.sets == 0) return "no picture yet: no rig has sent a frame";
+        if (status.sets == 0)
+            return show.settings().take ? "no picture yet: no frame of the take was read yet"
+                                        : "no picture yet: no rig has sent a frame";
         return fmt::format(
             "no picture yet: the renderer compiles its shaders, {} of {} rigs send frames", giving,
             status.rigs.size());

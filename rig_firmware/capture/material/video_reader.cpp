@@ -1,6 +1,7 @@
 #include "rig_firmware/capture/material/video_reader.h"
 
 #include "common/av/av_handles.h"
+#include "common/av/av_log.h"
 #include "common/base/error.h"
 #include "common/image/image_file.h"
 
@@ -88,7 +89,7 @@ struct VideoReader::Impl {
 
 VideoReader::VideoReader(const std::string& path) {
     // What goes wrong is said by our own sentence.
-    av_log_set_level(AV_LOG_QUIET);
+    keep_av_log();
     impl_ = std::make_unique<Impl>(path);
 }
 

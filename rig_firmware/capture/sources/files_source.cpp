@@ -35,6 +35,7 @@ class FilesSource final : public StereoSource {
         return StereoFrame{.trigger_index = pulse->index,
                            .synchronized = true,
                            .exposure = pulse->time,
+                           .exposed = pulse->monotonic,
                            .left = std::move(pair->left),
                            .right = std::move(pair->right),
                            .exact_disparity = {}};

@@ -57,6 +57,7 @@ class VirtualSource final : public StereoSource {
         return StereoFrame{.trigger_index = pulse->index,
                            .synchronized = true,
                            .exposure = pulse->time,
+                           .exposed = pulse->monotonic,
                            .left = std::move(picture.left),
                            .right = std::move(picture.right),
                            .exact_disparity = std::move(picture.exact_disparity)};

@@ -238,7 +238,7 @@ TEST_F(RigTroubles, OfASlowStartDoNotKeepARigFromThePlan) {
                       {"rigs", "plan", "--stage", file("stage.toml"), "--seconds", "1", "--wait",
                        "60", "--start", "--json"},
                       folder_.path());
-    wait_for(plan, "the take's first pulse is");
+    wait_for(plan, "the stage's first pulse is");
     south->send_signal(SIGSTOP);
     sleep(3);  // longer than the measurement
     south->send_signal(SIGCONT);

@@ -109,6 +109,41 @@ TEST_F(RunCommandTest, EndsInOrderWhenAskedTo) {
     }
 }
 
+TEST_F(RunCommandTest, GoesOnWhenItsClockIsSetByHours) {
+    // A path with a space would be two libraries.
+    std::filesystem::create_symlink(VANTAGE_CLOCK_SET, at("clock_set.so"));
+    for (const auto& [signal, step] : {std::pair(SIGUSR1, "+7200000"), {SIGUSR2, "-7200000"}}) {
+        ChildProgram rig(
+            VANTAGE_RIG, {"run", "--config", write_config(small_stage), "--frames", "30", "--json"},
+            folder_.path(), {"LD_PRELOAD=" + at("clock_set.so").string(), "CLOCK_SET_MS=7200000"});
+        ASSERT_TRUE(
+            eventually([&] { return rig.err().find("publishing on") != std::string::npos; }));
+        std::this_thread::sleep_for(500ms);
+        rig.send_signal(signal);
+        const ProgramResult result = rig.wait();
+        ASSERT_EQ(result.status, 0) << result.err;
+        EXPECT_NE(result.err.find(fmt::format("this computer's clock was set by {}.", step)),
+                  std::string::npos)
+            << result.err;
+        const nlohmann::json summary = nlohmann::json::parse(result.out);
+        EXPECT_EQ(summary.at("published"), 30);
+        expect_stats_to_balance(summary);
+        // The 72 000 pulses that the clock leapt over were not missed.
+        constexpr int pulses_of_the_run = 300;
+        EXPECT_LT(summary.at("missed").get<int>(), pulses_of_the_run);
+        EXPECT_LT(summary.at("capture_ms").at("max").get<double>(), 60'000);
+    }
+}
+
+TEST_F(RunCommandTest, NamesALimitOfOpenFilesThatIsTooLow) {
+    const ProgramResult result =
+        run_to_end("/bin/sh", {"-c", "ulimit -n 20; exec \"$0\" run --config \"$1\"", VANTAGE_RIG,
+                               write_config(small_stage)});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_NE(result.err.find("a rig needs"), std::string::npos) << result.err;
+    EXPECT_NE(result.err.find("ulimit -n"), std::string::npos) << result.err;
+}
+
 TEST_F(RunCommandTest, EndsWhereTheMaterialEnds) {
     for (int i = 0; i < 4; ++i) {
         write_picture(fmt::format("l{}.png", i), {61, 47});

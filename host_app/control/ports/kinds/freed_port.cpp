@@ -1,8 +1,10 @@
 #include <numbers>
+#include <set>
 #include <thread>
 
 #include <fmt/format.h>
 
+#include "common/base/log.h"
 #include "host_app/control/freed/freed_message.h"
 #include "host_app/control/ports/control_port.h"
 #include "host_app/control/ports/udp_socket.h"
@@ -20,7 +22,8 @@ constexpr double usual_focus_m = 4.5;
 class FreedPort final : public ControlPort {
   public:
     FreedPort(const OutputUrl& url, const ControlBench& bench)
-        : bench_(bench),
+        : name_(url.shown),
+          bench_(bench),
           socket_(UdpSocket::bound(listening_place_of(url), "control " + url.shown)) {
         url.require_options_of({"open", "camera", "fov"});
         camera_ = url.number("camera", 0, most_camera_id);
@@ -41,13 +44,19 @@ class FreedPort final : public ControlPort {
     }
 
   private:
+    /// A datagram may have several messages, one behind the other.
     void take(std::span<const std::byte> bytes) {
-        const std::optional<FreedCamera> message = decode_freed(bytes);
+        const bool are_several = !bytes.empty() && bytes.size() % freed_bytes == 0;
+        if (!are_several) return take_message(bytes);
+        for (; !bytes.empty(); bytes = bytes.subspan(freed_bytes))
+            take_message(bytes.first(freed_bytes));
+    }
+
+    void take_message(std::span<const std::byte> bytes) {
+        const FreedReading reading = read_freed(bytes);
+        const std::optional<FreedCamera>& message = reading.camera;
         if (!message) {
-            refuse(&PortStats::malformed,
-                   fmt::format("{} bytes that are no FreeD D1 with a right checksum and a tilt "
-                               "within 90 degrees",
-                               bytes.size()));
+            refuse_input("FreeD", bytes, reading.fault);
             return;
         }
         if (camera_ && message->id != *camera_) {
@@ -64,6 +73,7 @@ class FreedPort final : public ControlPort {
                                message->zoom));
             return;
         }
+        tell_first(*message, *angle_rad);
         constexpr double mm = 1000;
         bench_.tracked.put(
             {message->world_from_camera, *angle_rad,
@@ -72,8 +82,26 @@ class FreedPort final : public ControlPort {
         ++stats_.obeyed;
     }
 
+    /// Says once of a camera what its lens is taken to be: the protocol does not say it.
+    void tell_first(const FreedCamera& message, double angle_rad) {
+        if (!told_cameras_.insert(message.id).second) return;
+        const double angle_deg = angle_rad * 180 / std::numbers::pi;
+        const std::string guess =
+            field_of_view_rad_
+                ? fmt::format("its field of view is {:g} degrees, as fov= says", angle_deg)
+                : fmt::format(
+                      "its zoom {} is taken as a field of view of {:g} degrees and its "
+                      "focus {} as millimetres; if they are a focal length or an "
+                      "encoder's count, say fov=DEGREES",
+                      message.zoom, angle_deg, message.focus);
+        stats_.told = fmt::format("camera {}: {}", message.id, guess);
+        log_info("control {}: camera {} is heard; {}", name_, message.id, guess);
+    }
+
+    std::string name_;
     ControlBench bench_;
     UdpSocket socket_;
+    std::set<int> told_cameras_;
     std::optional<int> camera_;
     std::optional<double> field_of_view_rad_;
     std::uint64_t seen_overrun_ = 0;

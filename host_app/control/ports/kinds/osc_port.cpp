@@ -62,8 +62,8 @@ class OscPort final : public ControlPort {
         const MonotonicTime now = MonotonicClock::now();
         const std::optional<std::vector<OscMessage>> messages = decode_osc(datagram.bytes);
         if (!messages) {
-            refuse(&PortStats::malformed,
-                   fmt::format("{} bytes that are no OSC", datagram.bytes.size()));
+            refuse_input("OSC", datagram.bytes,
+                         fmt::format("{} bytes that are no OSC", datagram.bytes.size()));
             return;
         }
         for (const OscMessage& message : *messages) obey(message, datagram.from, now);

@@ -5,6 +5,7 @@
 
 #include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
+#include "host_app/control/ports/messages/line_splitter.h"
 #include "host_app/control/ports/messages/rosstalk_map.h"
 #include "host_app/control/ports/tcp_listener.h"
 
@@ -34,10 +35,15 @@ class RossTalkPort final : public ControlPort {
         int lines = 0;
         for (const TcpListener::Arrived& arrived : listener_.receive(most)) {
             if (arrived.bytes.empty()) {
+                if (const std::string& rest = lines_[arrived.peer].rest(); !rest.empty())
+                    refuse(&PortStats::malformed,
+                           fmt::format("'{}' without the end of a line, before the connection was "
+                                       "closed",
+                                       printable(rest)));
                 lines_.erase(arrived.peer);
                 continue;
             }
-            RossTalkLines& waiting = lines_[arrived.peer];
+            LineSplitter& waiting = lines_[arrived.peer];
             waiting.take(arrived.bytes);
             while (const std::optional<std::string> line = waiting.next()) {
                 obey(*line, MonotonicClock::now());
@@ -45,9 +51,9 @@ class RossTalkPort final : public ControlPort {
             }
             if (!waiting.is_flooded()) continue;
             refuse(&PortStats::malformed,
-                   fmt::format("more than {} bytes without CR LF, after which the connection is "
-                               "closed",
-                               RossTalkLines::most_line_bytes));
+                   fmt::format("more than {} bytes without the end of a line, after which the "
+                               "connection is closed",
+                               LineSplitter::most_line_bytes));
             lines_.erase(arrived.peer);
             listener_.close(arrived.peer);
         }
@@ -61,10 +67,14 @@ class RossTalkPort final : public ControlPort {
     void obey(const std::string& line, MonotonicTime now) {
         const RossTalkLine said = parse_rosstalk(line);
         if (!said.order) {
-            refuse(said.is_known ? &PortStats::malformed : &PortStats::unknown,
-                   fmt::format("'{}' is {}", printable(line),
-                               said.is_known ? "not GPI n or XPT D:S as RossTalk has it"
-                                             : "no command that is taken"));
+            const std::string sentence =
+                fmt::format("'{}' is {}", printable(line),
+                            said.is_known ? "not GPI n or XPT D:S as RossTalk has it"
+                                          : "no command that is taken");
+            if (said.is_known)
+                refuse_input("RossTalk", std::as_bytes(std::span(line)), sentence);
+            else
+                refuse(&PortStats::unknown, sentence);
             return;
         }
         const CommandCall* call = map_.find(*said.order);
@@ -78,7 +88,7 @@ class RossTalkPort final : public ControlPort {
     CommandIntake intake_;
     RossTalkMap map_;
     TcpListener listener_;
-    std::map<int, RossTalkLines> lines_;
+    std::map<int, LineSplitter> lines_;
     std::uint64_t seen_turned_away_ = 0;
 };
 

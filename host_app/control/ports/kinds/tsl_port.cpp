@@ -32,8 +32,8 @@ class TslPort : public ControlPort {
     void take(std::span<const std::byte> bytes) {
         const std::optional<std::vector<TslDisplay>> displays = decode_tsl(bytes);
         if (!displays) {
-            refuse(&PortStats::malformed,
-                   fmt::format("{} bytes that are no TSL UMD 3.1 or 5.0", bytes.size()));
+            refuse_input("TSL", bytes,
+                         fmt::format("{} bytes that are no TSL UMD 3.1, 4.0 or 5.0", bytes.size()));
             return;
         }
         // Mixers tell every display about every other; that is no fault.
@@ -42,7 +42,7 @@ class TslPort : public ControlPort {
             return (display.tallies >> (tally - 1) & 1) != 0;
         };
         for (const TslDisplay& display : *displays)
-            if (display.address == address_)
+            if (display.address == address_ || display.address == every_tsl_display)
                 bench_.tally.put({is_on(display, programme_), is_on(display, preview_)});
     }
 
@@ -84,6 +84,9 @@ class TslConnections final : public TslPort {
         std::size_t messages = 0;
         for (const TcpListener::Arrived& arrived : listener_.receive(most)) {
             if (arrived.bytes.empty()) {
+                if (streams_[arrived.peer].has_rest())
+                    refuse(&PortStats::malformed,
+                           "part of a message, before the connection was closed");
                 streams_.erase(arrived.peer);
                 continue;
             }
@@ -94,8 +97,7 @@ class TslConnections final : public TslPort {
                 ++messages;
             }
             for (std::uint64_t i = strays; i < stream.strays(); ++i)
-                refuse(&PortStats::malformed,
-                       "bytes that are no message of TSL UMD 5.0 over TCP, which DLE STX begins");
+                refuse(&PortStats::malformed, "bytes that are no message of TSL UMD 5.0 or 3.1");
         }
         stats_.dropped += listener_.turned_away() - seen_turned_away_;
         seen_turned_away_ = listener_.turned_away();

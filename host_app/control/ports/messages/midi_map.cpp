@@ -37,7 +37,7 @@ MidiAxisMap read_midi_axis(const MidiControl& control, const std::string& name, 
     std::string encoding = "twos";
     int bits = 7;
     table.read_choice("kind", kind, {"fader", "stick", "encoder"});
-    table.read_choice("encoding", encoding, {"twos", "offset", "sign"});
+    table.read_choice("encoding", encoding, {"twos", "offset", "sign", "127/0"});
     table.read("bits", bits, {7, 14});
     table.read("travel_steps", axis.travel_steps, {1, 100000});
     if (control.kind == MidiKind::note)
@@ -60,6 +60,7 @@ MidiAxisMap read_midi_axis(const MidiControl& control, const std::string& name, 
                   : !is_encoder          ? MidiTravel::fader
                   : encoding == "offset" ? MidiTravel::binary_offset
                   : encoding == "sign"   ? MidiTravel::sign_bit
+                  : encoding == "127/0"  ? MidiTravel::ends
                                          : MidiTravel::twos;
     axis.map = read_axis_map(table);
     if (axis.map.action == AxisAction::shuttle && axis.travel != MidiTravel::stick)

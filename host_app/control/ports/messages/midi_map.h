@@ -21,6 +21,7 @@ enum class MidiTravel {
     twos,           ///< an encoder: 1 to 63 steps on, 127 to 65 back (two's complement)
     binary_offset,  ///< 65 to 127 on, 63 to 0 back
     sign_bit,       ///< 1 to 63 on, 65 to 127 back
+    ends,           ///< 127 one step on, 0 one back
 };
 
 struct MidiAxisMap {

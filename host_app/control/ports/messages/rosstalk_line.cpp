@@ -19,6 +19,7 @@ std::optional<int> number_of(std::string_view text) {
 }  // namespace
 
 RossTalkLine parse_rosstalk(std::string_view line) {
+    while (line.ends_with(' ') || line.ends_with('\t')) line.remove_suffix(1);
     constexpr std::string_view gpi = "GPI ", xpt = "XPT ";
     if (line.starts_with(gpi)) {
         const auto number = number_of(line.substr(gpi.size()));
@@ -32,14 +33,6 @@ RossTalkLine parse_rosstalk(std::string_view line) {
     const auto source = number_of(line.substr(colon + 1));
     if (!destination || !source) return {{}, true};
     return {RossTalkOrder{RossTalkOrder::Kind::xpt, *destination, *source}, true};
-}
-
-std::optional<std::string> RossTalkLines::next() {
-    const std::size_t end = waiting_.find("\r\n");
-    if (end == std::string::npos) return std::nullopt;
-    std::string line = waiting_.substr(0, end);
-    waiting_.erase(0, end + 2);
-    return line;
 }
 
 }  // namespace vantage

@@ -21,19 +21,4 @@ struct RossTalkLine {
 };
 RossTalkLine parse_rosstalk(std::string_view line);
 
-/// Takes the bytes of a connection apart into lines that end CR LF.
-class RossTalkLines {
-  public:
-    void take(std::string_view bytes) { waiting_ += bytes; }
-    /// The next whole line without its end; nothing: none has come yet.
-    std::optional<std::string> next();
-    /// More came without an end than a line has; nothing of it is worth waiting for.
-    bool is_flooded() const { return waiting_.size() > most_line_bytes; }
-
-    static constexpr std::size_t most_line_bytes = 128;
-
-  private:
-    std::string waiting_;
-};
-
 }  // namespace vantage

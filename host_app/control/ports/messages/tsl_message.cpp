@@ -1,6 +1,11 @@
 #include "host_app/control/ports/messages/tsl_message.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "host_app/control/ports/messages/tsl_stream.h"
 
 namespace vantage {
 namespace {
@@ -21,8 +26,7 @@ std::optional<std::vector<TslDisplay>> decode_v3(std::span<const std::byte> byte
     if (head < v3_first_address || head > v3_first_address + v3_most_address ||
         (control & ~known_bits) != 0)
         return std::nullopt;
-    for (std::size_t i = 2; i < bytes.size(); ++i)
-        if (byte_at(bytes, i) < 0x20 || byte_at(bytes, i) > 0x7e) return std::nullopt;
+    // The text that follows is shown nowhere here, and some senders pad it with NUL.
     return std::vector{TslDisplay{static_cast<int>(head - v3_first_address), control & tally_bits}};
 }
 
@@ -52,13 +56,67 @@ std::optional<std::vector<TslDisplay>> decode_v5(std::span<const std::byte> byte
     return displays;
 }
 
+/// Of version 4.0, which follows the 18 bytes of 3.1: checksum, count, and so many more bytes.
+std::size_t v4_extra_bytes(std::span<const std::byte> bytes) {
+    constexpr std::size_t extra_head_bytes = 2;
+    if (bytes.size() < v3_bytes + extra_head_bytes) return 0;
+    unsigned sum = 0;
+    for (std::size_t i = 0; i < v3_bytes; ++i) sum += byte_at(bytes, i);
+    if (byte_at(bytes, v3_bytes) != ((0x80 - (sum & 0x7f)) & 0x7f)) return 0;
+    const std::size_t extra = extra_head_bytes + (byte_at(bytes, v3_bytes + 1) & 0xf);
+    return v3_bytes + extra <= bytes.size() ? extra : 0;
+}
+
+/// The message that stands first; takes it away. Nothing: none does.
+std::optional<std::vector<TslDisplay>> take_message(std::span<const std::byte>& bytes) {
+    const bool may_be_v3 = bytes.size() >= v3_bytes && byte_at(bytes, 0) >= v3_first_address;
+    const std::size_t v5_bytes = bytes.size() < 3 ? 0 : word_at(bytes, 0) + std::size_t{2};
+    const bool may_be_v5 = v5_bytes > 2 && v5_bytes <= bytes.size() && byte_at(bytes, 2) == 0;
+    if (may_be_v5 && (!may_be_v3 || v5_bytes == bytes.size())) {
+        const auto displays = decode_v5(bytes.first(v5_bytes));
+        bytes = bytes.subspan(v5_bytes);
+        return displays;
+    }
+    if (!may_be_v3) return std::nullopt;
+    const auto displays = decode_v3(bytes.first(v3_bytes));
+    bytes = bytes.subspan(v3_bytes + v4_extra_bytes(bytes));
+    return displays;
+}
+
+/// As version 5.0 is wrapped for TCP, which some send over UDP too.
+std::optional<std::vector<TslDisplay>> decode_wrapped(std::span<const std::byte> bytes) {
+    TslStream stream;
+    std::vector<TslDisplay> all;
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::vector<std::string> messages = stream.take(text);
+    for (const std::string& message : messages) {
+        const auto displays = decode_v5(std::as_bytes(std::span(message)));
+        if (!displays) return std::nullopt;
+        all.insert(all.end(), displays->begin(), displays->end());
+    }
+    if (messages.empty() || stream.strays() > 0 || stream.has_rest()) return std::nullopt;
+    return all;
+}
+
 }  // namespace
 
 std::optional<std::vector<TslDisplay>> decode_tsl(std::span<const std::byte> datagram) {
-    // 18 bytes that begin with such an address could be no 5.0: its count of bytes would be 16.
-    if (datagram.size() == v3_bytes && byte_at(datagram, 0) >= v3_first_address)
-        return decode_v3(datagram);
-    return decode_v5(datagram);
+    constexpr unsigned dle = 0xfe, stx = 0x02;
+    if (datagram.size() > 1 && byte_at(datagram, 0) == dle && byte_at(datagram, 1) == stx)
+        if (auto displays = decode_wrapped(datagram)) return displays;
+    std::vector<TslDisplay> all;
+    bool is_any = false;
+    while (!datagram.empty()) {
+        const bool is_padding = std::all_of(datagram.begin(), datagram.end(),
+                                            [](std::byte byte) { return byte == std::byte{0}; });
+        if (is_any && is_padding) break;
+        const auto displays = take_message(datagram);
+        if (!displays) return std::nullopt;
+        is_any = true;
+        all.insert(all.end(), displays->begin(), displays->end());
+    }
+    if (!is_any) return std::nullopt;
+    return all;
 }
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 #include "common/base/cli/stop_signal.h"
 
 #include <csignal>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -29,9 +30,27 @@ TEST_P(StopSignalTest, ASecondSignalEndsTheProgram) {
             StopSignal stop;
             kill(getpid(), GetParam());
             stop.wait_for(10s);
+            std::this_thread::sleep_for(StopSignal::same_request);
             kill(getpid(), GetParam());
         },
         testing::KilledBySignal(GetParam()), "");
+}
+
+TEST_P(StopSignalTest, ASignalThatComesTwiceAtOnceIsOneRequest) {
+    EXPECT_EXIT(
+        {
+            std::signal(GetParam(), SIG_DFL);
+            {
+                StopSignal stop;
+                kill(getpid(), GetParam());
+                stop.wait_for(10s);
+                kill(getpid(), GetParam());
+            }
+            // The summary is printed when the loop that asked is over.
+            kill(getpid(), GetParam());
+            _exit(7);
+        },
+        testing::ExitedWithCode(7), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, StopSignalTest, testing::Values(SIGINT, SIGTERM));

@@ -3,9 +3,11 @@
 #include <string>
 #include <zmq.hpp>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "common/config/socket_address.h"
 #include "tests/support/free_ports.h"
 
 namespace vantage {
@@ -16,7 +18,7 @@ using testing::HasSubstr;
 constexpr std::chrono::milliseconds limit{1000};
 
 std::string why(const std::string& endpoint) {
-    return why_unreachable(parse_endpoint(endpoint, "endpoint"), limit);
+    return reach(parse_endpoint(endpoint, "endpoint"), limit).reason;
 }
 
 TEST(Reachability, ReportsNothingForAnOpenPort) {
@@ -24,6 +26,21 @@ TEST(Reachability, ReportsNothingForAnOpenPort) {
     zmq::socket_t listener(context, zmq::socket_type::router);
     listener.bind("tcp://127.0.0.1:*");
     EXPECT_EQ(why(listener.get(zmq::sockopt::last_endpoint)), "");
+}
+
+TEST(Reachability, TriesEveryAddressOfAName) {
+    zmq::context_t context;
+    zmq::socket_t listener(context, zmq::socket_type::router);
+    const int port = two_free_ports().first;
+    const std::vector<SocketAddress> addresses = resolve_all("localhost", port);
+    listener.set(zmq::sockopt::ipv6, true);
+    // Only the last address of the name is listened on.
+    listener.bind("tcp://" + addresses.back().text());
+    const Endpoint endpoint = parse_endpoint(fmt::format("tcp://localhost:{}", port), "endpoint");
+    EXPECT_EQ(reach(endpoint, limit).address, "tcp://" + addresses.back().text());
+    listener.close();
+    for (const SocketAddress& address : addresses)
+        EXPECT_THAT(reach(endpoint, limit).reason, HasSubstr(address.host()));
 }
 
 TEST(Reachability, ReportsAClosedPort) {

@@ -136,6 +136,15 @@ TEST_F(RigLinkTest, ABrokenConnectionDisconnectsTheRigAtOnce) {
     EXPECT_TRUE(until([&] { return connected(); }));
 }
 
+TEST_F(RigLinkTest, ConnectsToAnotherAddressOfTheRigsName) {
+    const std::string answering = endpoint();
+    const std::string port = answering.substr(answering.rfind(':'));
+    link_.emplace(context_, StageConfig::Rig{"rig-a", "tcp://127.0.0.77" + port, ""}, keys_);
+    link_->use_address(answering);
+    ASSERT_TRUE(until([&] { return heard_.has_value(); }));
+    EXPECT_TRUE(heard_->tai_offset_s);
+}
+
 TEST_F(RigLinkTest, ARefusalDisconnectsTheRigAtOnce) {
     connect(7);
     const MonotonicTime start = MonotonicClock::now();

@@ -3,12 +3,21 @@
 #include <array>
 #include <atomic>
 #include <memory>
+#include <optional>
+#include <string>
 #include <thread>
 #include <zmq.hpp>
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/unique_fd.h"
+#include "common/base/time/kernel_clock.h"
+#include "common/config/socket_address.h"
+#include "common/wire/curve_keys.h"
 #include "common/wire/link_message.h"
+#include "tests/support/data_folder.h"
 #include "tests/support/eventually.h"
 
 namespace vantage {
@@ -17,13 +26,14 @@ namespace {
 /// A host that grants a frame and reads none of it: most of it stays at the rig.
 class StuckHost {
   public:
-    StuckHost(const std::string& endpoint, std::uint64_t id)
+    StuckHost(const std::string& endpoint, std::uint64_t id, std::optional<int> tai_offset_s = {})
         : socket_(context_, zmq::socket_type::dealer) {
         socket_.set(zmq::sockopt::linger, 0);
         socket_.set(zmq::sockopt::rcvhwm, 1);
         socket_.set(zmq::sockopt::rcvbuf, 4096);
         socket_.connect(endpoint);
         request_.host_id = id;
+        request_.tai_offset_s = tai_offset_s;
         say();
         zmq::message_t welcome;
         EXPECT_TRUE(socket_.recv(welcome));
@@ -38,6 +48,37 @@ class StuckHost {
     zmq::socket_t socket_;
     HostMessage request_;
 };
+
+TEST(FrameServer, NamesAHostWithAnotherTaiOffset) {
+    FrameServer::Settings settings;
+    settings.bind = "tcp://127.0.0.1:*";
+    const FrameServer server(settings, "rig-a", 42);
+    testing::internal::CaptureStderr();
+    const StuckHost host(server.endpoint(), 1, read_kernel_clock().tai_offset_s + 37);
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_NE(log.find("differ by 37 s"), std::string::npos) << log;
+    EXPECT_EQ(log.find("differ by", log.find("differ by") + 1), std::string::npos)
+        << "it is said once";
+}
+
+TEST(FrameServer, OfAnyAddressIsReachedOverBothFamilies) {
+    FrameServer::Settings settings;
+    settings.bind = "tcp://*:*";
+    TemporaryFolder folder;
+    const CurveKeys keys = generate_curve_keys();
+    settings.key_file = folder.path() / "rig.key";
+    write_key_file(settings.key_file, keys);
+    settings.authorized_hosts = folder.path() / "hosts.keys";
+    write_text_atomically(settings.authorized_hosts, keys.public_key + "\n");
+    const FrameServer server(settings, "rig-a", 42);
+    const int port = std::stoi(server.endpoint().substr(server.endpoint().rfind(':') + 1));
+    for (const char* host : {"127.0.0.1", "::1"}) {
+        const SocketAddress address = resolve_all(host, port).front();
+        const UniqueFd fd(::socket(address.family(), SOCK_STREAM | SOCK_CLOEXEC, 0));
+        if (!fd) continue;  // no IPv6 here
+        EXPECT_EQ(::connect(fd.get(), address.get(), address.size), 0) << host;
+    }
+}
 
 // ZeroMQ aborts the program (libzmq issue 3442) where a connection breaks at the moment at which
 // the socket is closed without lingering, with a message half sent.

@@ -31,6 +31,29 @@ TEST_F(MetricsServerTest, ServesTheLastText) {
     EXPECT_TRUE(answer.ends_with("\r\n\r\nvantage_ticks_total 7\n# EOF\n")) << answer;
 }
 
+TEST_F(MetricsServerTest, AnswersInTheFormatThatIsAccepted) {
+    server_.show(
+        "# TYPE vantage_ticks counter\n# HELP vantage_ticks Ticks.\nvantage_ticks_total 7\n# "
+        "EOF\n");
+    const auto accepting = [&](const std::string& types) {
+        return answer_to("GET /metrics HTTP/1.1\r\nHost: a\r\nConnection: close\r\nAccept: " +
+                         types + "\r\n\r\n");
+    };
+    const std::string plain = accepting("text/plain");
+    EXPECT_NE(plain.find("text/plain; version=0.0.4"), std::string::npos) << plain;
+    EXPECT_TRUE(
+        plain.ends_with("\r\n\r\n# TYPE vantage_ticks_total counter\n# HELP "
+                        "vantage_ticks_total Ticks.\nvantage_ticks_total 7\n"))
+        << plain;
+    for (const char* types :
+         {"application/openmetrics-text;version=1.0.0,text/plain;version=0.0.4;q=0.5,*/*;q=0.1",
+          "*/*"})
+        EXPECT_NE(accepting(types).find("application/openmetrics-text"), std::string::npos)
+            << types;
+    EXPECT_NE(accepting("application/openmetrics-text;q=0.2, text/plain;q=0.9").find("0.0.4"),
+              std::string::npos);
+}
+
 TEST_F(MetricsServerTest, ServesNoOtherPath) {
     EXPECT_TRUE(answer_of("GET", "/").starts_with("HTTP/1.1 404"));
     EXPECT_TRUE(answer_of("GET", "/metrics/../../etc/passwd").starts_with("HTTP/1.1 404"));

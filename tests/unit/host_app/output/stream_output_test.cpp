@@ -120,6 +120,19 @@ TEST_F(StreamOutputTest, SrtServesOneCallerAfterTheOtherWhoKnowsThePassphrase) {
     EXPECT_GT(output_->state().unheard, 0u);
 }
 
+TEST_F(StreamOutputTest, ACallerOfSrtThatLeavesIsNoFailure) {
+    begin(address("srt", "?mode=listener&latency=2000"));
+    ASSERT_TRUE(wait_for([&] { return output_->state().phase == OutputPhase::waiting; }));
+    (void)times_of(address("srt", "?connect_timeout=30000"), 30);
+    ASSERT_TRUE(wait_for([&] { return output_->state().callers_left == 1; }));
+    EXPECT_EQ(output_->state().failures, 0u);
+    EXPECT_EQ(output_->state().failure, "");
+    ASSERT_TRUE(wait_for([&] { return output_->state().phase == OutputPhase::waiting; }));
+    end();
+    EXPECT_EQ(output_->state().phase, OutputPhase::off);
+    EXPECT_EQ(output_->state().failure, "");
+}
+
 TEST_F(StreamOutputTest, SrtCallsUntilSomebodyListens) {
     begin(address("srt", "?latency=2000"));
     ASSERT_TRUE(wait_for([&] { return output_->state().phase == OutputPhase::failed; }));

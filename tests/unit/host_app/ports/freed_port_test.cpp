@@ -71,6 +71,44 @@ TEST(FreedMessage, ReadsAMessageThatIsWrittenDownByHand) {
     EXPECT_FALSE(decode_freed(std::span(bytes).first(28)));
 }
 
+TEST(FreedMessage, NamesWhatIsWrongAndToleratesRounding) {
+    FreedCamera camera = freed_camera(some_camera(), 1);
+    camera.world_from_camera.linear() = turned({0, 90 * deg, 0});
+    auto bytes = encode_freed(camera);
+    const auto with_tilt = [&](std::uint32_t steps) {
+        for (std::size_t i = 0; i < 3; ++i)
+            bytes[5 + i] = static_cast<std::byte>(steps >> (16 - 8 * i));
+        unsigned sum = 0;
+        for (std::size_t i = 0; i + 1 < bytes.size(); ++i)
+            sum += std::to_integer<unsigned>(bytes[i]);
+        bytes[28] = static_cast<std::byte>((0x40 - sum) & 0xff);
+        return read_freed(bytes);
+    };
+    EXPECT_TRUE(with_tilt(90 * 32768 + 1).camera) << "90.00003 degrees";
+    EXPECT_NE(with_tilt(95 * 32768).fault.find("tilt of 95.00 degrees"), std::string::npos);
+    bytes[28] ^= std::byte{1};
+    EXPECT_NE(read_freed(bytes).fault.find("checksum"), std::string::npos);
+    EXPECT_NE(read_freed(std::span(bytes).first(28)).fault.find("28 bytes"), std::string::npos);
+    bytes[0] = std::byte{0xd0};
+    EXPECT_NE(read_freed(bytes).fault.find("type 0xd0"), std::string::npos);
+}
+
+TEST_F(BenchTest, WhatALensIsTakenForIsToldOnce) {
+    FreedCamera message = freed_camera(some_camera(), 3);
+    message.zoom = 9000;
+    const auto bytes = encode_freed(message);
+    const auto port = open("freed");
+    testing::internal::CaptureStderr();
+    std::string two(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    peer_.send(two + two, number_);
+    serve(*port, 2);
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(port->stats().obeyed, 2u) << "both of one datagram";
+    const std::size_t first = log.find("zoom 9000 is taken as a field of view of 9 degrees");
+    EXPECT_NE(first, std::string::npos) << log;
+    EXPECT_EQ(log.find("zoom 9000", first + 1), std::string::npos);
+}
+
 TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     const auto port = open("freed", "?camera=3");
     const auto sink = make_freed_sink(fmt::format("freed://127.0.0.1:{}?camera=3", number_));

@@ -121,6 +121,28 @@ TEST(MidiSurface, CountsEncodersInEveryEncoding) {
     EXPECT_EQ(asked(surface.take(cc(3, 66))), "orbit 4");
 }
 
+TEST(MidiSurface, CountsTheClicksOfAnEncoderThatSendsItsEnds) {
+    const MidiMap map =
+        midi_map("[axes.\"cc 1\"]\naction = \"orbit\"\nkind = \"encoder\"\nencoding = \"127/0\"\n");
+    MidiSurface surface(map);
+    EXPECT_EQ(asked(surface.take(cc(1, 127))), "orbit 1");
+    EXPECT_EQ(asked(surface.take(cc(1, 0))), "orbit -1");
+}
+
+TEST(MidiSurface, RefusesAClickThatWouldLeap) {
+    const MidiMap map = midi_map(
+        "[axes.\"cc 1\"]\naction = \"orbit\"\nkind = \"encoder\"\n"
+        "[axes.\"cc 2\"]\naction = \"orbit\"\nkind = \"encoder\"\nencoding = \"offset\"\n");
+    MidiSurface surface(map);
+    // Of encoders that send 63 and 65, or 127 and 0.
+    for (const MidiMessage& click : {cc(1, 63), cc(1, 65), cc(2, 127), cc(2, 0)}) {
+        const MidiSurface::Outcome outcome = surface.take(click);
+        EXPECT_EQ(outcome.kind, Outcome::malformed) << click.value;
+        EXPECT_EQ(asked(outcome), "");
+        EXPECT_THAT(outcome.refusal, HasSubstr("encoding"));
+    }
+}
+
 TEST(MidiSurface, CountsWhatAFaderMovesInSevenAndFourteenBits) {
     const MidiMap map = midi_map(
         "[axes.\"cc 1\"]\naction = \"zoom\"\ntravel_steps = 127\n"

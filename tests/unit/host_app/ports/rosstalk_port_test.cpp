@@ -23,16 +23,18 @@ TEST(RossTalkLine, HasANumberOrDestinationAndSource) {
         EXPECT_FALSE(parse_rosstalk(other).is_known) << other;
 }
 
-TEST(RossTalkLines, EndWithBothLetters) {
-    RossTalkLines lines;
+TEST(LineSplitter, EndsLinesAsAnySenderDoes) {
+    LineSplitter lines;
     lines.take("GPI 1\r\nGP");
     EXPECT_EQ(lines.next(), "GPI 1");
     EXPECT_FALSE(lines.next());
     lines.take("I 2\nGPI 3\r");
-    EXPECT_FALSE(lines.next()) << "a line feed alone is no end";
-    lines.take("\n");
-    EXPECT_EQ(lines.next(), "GPI 2\nGPI 3");
-    lines.take(std::string(RossTalkLines::most_line_bytes + 1, 'x'));
+    EXPECT_EQ(lines.next(), "GPI 2");
+    EXPECT_EQ(lines.next(), "GPI 3");
+    lines.take("\n\n");
+    EXPECT_FALSE(lines.next()) << "an empty line is none";
+    EXPECT_EQ(lines.rest(), "");
+    lines.take(std::string(LineSplitter::most_line_bytes + 1, 'x'));
     EXPECT_TRUE(lines.is_flooded());
 }
 
@@ -68,13 +70,27 @@ TEST_F(BenchTest, RossTalkGivesTheCommandsOfItsMap) {
 TEST_F(BenchTest, RossTalkCountsWhatDoesNotFitAndNeverObeysIt) {
     const auto port = open("rosstalk");
     const LocalCaller caller(number_);
-    caller.say("gpi 1\r\nGPI one\r\nGPI 999\r\nGPI 1\nXPT 1:\r\n\x1b[2J\r\n");
+    caller.say("gpi 1\r\nGPI one\r\nGPI 999\r\nGPI 1 XPT 1:\r\n\x1b[2J\r\n");
     serve(*port, 5);
     EXPECT_EQ(port->stats().unknown, 3u);
     EXPECT_EQ(port->stats().malformed, 2u);
     EXPECT_EQ(port->stats().obeyed, 0u);
     EXPECT_EQ(port->stats().last_refusal.find('\x1b'), std::string::npos);
     EXPECT_FALSE(operator_input_.take().since);
+}
+
+TEST_F(BenchTest, RossTalkObeysLinesThatEndWithALineFeedAndCountsWhatIsLeft) {
+    const auto port = open("rosstalk");
+    {
+        const LocalCaller caller(number_);
+        caller.say("GPI 2\nGPI 1");
+        serve(*port, 1);
+        EXPECT_TRUE(operator_input_.take().input.toggle_freeze);
+    }
+    serve(*port, 2);
+    EXPECT_EQ(port->stats().obeyed, 1u);
+    EXPECT_EQ(port->stats().malformed, 1u) << "its connection was closed in the middle of a line";
+    EXPECT_NE(port->stats().last_refusal.find("'GPI 1'"), std::string::npos);
 }
 
 TEST_F(BenchTest, RossTalkClosesWhoSendsNoEndAndHearsTheOthers) {

@@ -43,9 +43,20 @@ TEST(TslMessage, OfVersionThreeHasAnAddressAndFourTallies) {
     EXPECT_FALSE(decoded(v3(5, 0x41)));
     EXPECT_FALSE(decoded(v3(127, 1)));
     EXPECT_FALSE(decoded(v3(5, 1).substr(1)));
-    std::string rubbish = v3(5, 1);
-    rubbish[7] = '\1';
-    EXPECT_FALSE(decoded(rubbish));
+    std::string padded = v3(5, 1);
+    padded[17] = '\0';
+    EXPECT_TRUE(decoded(padded)) << "the text is shown nowhere";
+    const auto two = decoded(v3(5, 1) + v3(6, 2));
+    ASSERT_TRUE(two);
+    EXPECT_EQ(two->size(), 2u);
+    EXPECT_TRUE(decoded(v3(5, 1) + std::string(4, '\0'))) << "a datagram may be padded";
+    std::string v4 = v3(5, 1);
+    unsigned sum = 0;
+    for (const char byte : v4) sum += static_cast<unsigned char>(byte);
+    v4 += {static_cast<char>((0x80 - sum % 0x80) % 0x80), '\2', '\1', '\1'};
+    const auto of_v4 = decoded(v4 + v3(6, 2));
+    ASSERT_TRUE(of_v4);
+    EXPECT_EQ(of_v4->size(), 2u);
 }
 
 TEST(TslMessage, OfVersionFiveHasAnyNumberOfDisplays) {
@@ -60,6 +71,34 @@ TEST(TslMessage, OfVersionFiveHasAnyNumberOfDisplays) {
     for (std::size_t bytes = 0; bytes < whole.size(); ++bytes)
         EXPECT_FALSE(decoded(whole.substr(0, bytes))) << bytes;
     EXPECT_FALSE(decoded(v5(word(1) + word(1) + word(6) + "VIRT1"))) << "the text is cut off";
+}
+
+TEST(TslMessage, OfVersionFiveMayBeWrappedOrSeveralInADatagram) {
+    for (const std::string& bytes : {wrapped(v5(display(7, 1))) + wrapped(v5(display(0x02fe, 2))),
+                                     v5(display(7, 1)) + v5(display(0x02fe, 2))}) {
+        const auto displays = decoded(bytes);
+        ASSERT_TRUE(displays);
+        ASSERT_EQ(displays->size(), 2u);
+        EXPECT_EQ(displays->at(1).address, 0x02fe);
+    }
+    EXPECT_FALSE(decoded(wrapped(v5(display(7, 1))).substr(0, 9)));
+}
+
+TEST(TslStream, TakesMessagesWithoutTheirWrapping) {
+    const std::string first = v5(display(0x02fe, 1)), second = v3(5, 2);
+    const std::string bytes = first + wrapped(first) + second + second;
+    for (std::size_t cut = 0; cut <= bytes.size(); ++cut) {
+        TslStream stream;
+        std::vector<std::string> messages = stream.take(bytes.substr(0, cut));
+        for (std::string& message : stream.take(bytes.substr(cut)))
+            messages.push_back(std::move(message));
+        EXPECT_EQ(messages, (std::vector{first, first, second, second})) << cut;
+        EXPECT_EQ(stream.strays(), 0u) << cut;
+        EXPECT_FALSE(stream.has_rest());
+    }
+    TslStream stream;
+    (void)stream.take(first.substr(0, 9));
+    EXPECT_TRUE(stream.has_rest());
 }
 
 TEST(TslStream, TakesMessagesApartWhereverTheirBytesAreCut) {
@@ -119,6 +158,23 @@ TEST_F(BenchTest, AMixerMayTellItOverTcp) {
     EXPECT_EQ(port->stats().malformed, 2u) << "the text is cut off";
     EXPECT_NE(thrown_sentence([&] { (void)open("tsl", "?over=pigeon"); }).find("tcp"),
               std::string::npos);
+}
+
+TEST_F(BenchTest, AMessageToEveryDisplayLightsThisOne) {
+    const auto port = open("tsl", "?address=5");
+    peer_.send(v5(display(0xffff, 1)), number_);
+    serve(*port, 1);
+    EXPECT_EQ(tally_.state(), (Tally::State{.programme = true, .preview = false}));
+}
+
+TEST_F(BenchTest, WhatAMixerLeavesUnfinishedIsCounted) {
+    const auto port = open("tsl", "?over=tcp&address=5");
+    {
+        const LocalCaller mixer(number_);
+        mixer.say(wrapped(v5(display(5, 1))).substr(0, 9));
+    }
+    serve(*port, 1);
+    EXPECT_EQ(port->stats().malformed, 1u);
 }
 
 TEST_F(BenchTest, ThePlaceOfTheTalliesCanBeSaid) {

@@ -68,6 +68,25 @@ TEST_P(PastTime, AcceptsSecondsFromBothEnds) {
     EXPECT_EQ(find("-0"), span().newest);
 }
 
+TEST_P(PastTime, TakesAnOffsetFromUtc) {
+    EXPECT_EQ(find("22:55:07Z"), find("23:55:07"));
+    EXPECT_EQ(find("17:55:07-05:00"), find("23:55:07"));
+    EXPECT_NE(refusal("23:55:07Z"), "");
+}
+
+TEST_P(PastTime, TakesTheLaterTimeInTheHourThatOccursTwice) {
+    const PulseGrid grid(GetParam());
+    constexpr std::int64_t set_back_s = 1'792'890'000, ns = 1'000'000'000;
+    const PastFrameSets::Span night{
+        .oldest = grid.index_at_or_before(tai_from_ns((set_back_s - 3600) * ns)),
+        .newest = grid.index_at_or_before(tai_from_ns((set_back_s + 3500) * ns))};
+    const auto at = [&](const std::string& words) {
+        return to_ns(grid.time_of(pulse_in_past(words, night, GetParam(), 0))) / ns;
+    };
+    EXPECT_NEAR(static_cast<double>(at("02:30:00")), set_back_s + 1800, 1);
+    EXPECT_NEAR(static_cast<double>(at("02:30:00+02:00")), set_back_s - 1800, 1);
+}
+
 TEST_P(PastTime, RejectsTimesOutsideThePast) {
     EXPECT_NE(refusal("12:00:00:00").find("goes from 23:50"), std::string::npos)
         << refusal("12:00:00");

@@ -60,6 +60,36 @@ TEST_F(ClockTimeTest, ConvertsATimeCodeToItsPulse) {
                 testing::HasSubstr("does not exist in time code at 25 pulses"));
 }
 
+TEST_F(ClockTimeTest, AcceptsAnOffsetFromUtc) {
+    EXPECT_EQ(clock_span("19:14:00Z", "20:14:30+01:00", evening).from.utc_s, evening - 60);
+    EXPECT_EQ(clock_span("19:14:00Z", "20:14:30+01:00", evening).to.utc_s, evening - 30);
+    const ClockSpan dated = clock_span("2026-11-22T14:15:00-0500", "2026-11-22T19:15:01:05Z", 0);
+    EXPECT_EQ(dated.from.utc_s, evening);
+    EXPECT_EQ(dated.to.utc_s, evening + 1);
+    EXPECT_EQ(dated.to.frame, 5);
+    EXPECT_NE(thrown_sentence([&] { (void)clock_span("20:14:00+25:00", "20:15:00", evening); }),
+              "");
+}
+
+TEST_F(ClockTimeTest, TakesTheLaterTimeInTheHourThatOccursTwice) {
+    // Clocks were set back from 03:00 to 02:00 at 2026-10-25T01:00:00Z.
+    constexpr std::time_t set_back = 1'792'890'000;
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(clock_span("02:30:00", "02:31:00", set_back + 3600).from.utc_s, set_back + 1800);
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_THAT(log, testing::HasSubstr("occurs twice"));
+    EXPECT_THAT(log, testing::HasSubstr("2026-10-25T01:30:00Z"));
+    const ClockSpan first = clock_span("02:30:00", "02:31:00", set_back - 60);
+    EXPECT_EQ(first.from.utc_s, set_back - 1800) << "the later one is still to come";
+    EXPECT_EQ(first.to.utc_s, set_back - 1740);
+    EXPECT_EQ(clock_span("02:30:00+02:00", "02:31:00+02:00", set_back + 3600).from.utc_s,
+              set_back - 1800);
+    EXPECT_THAT(thrown_sentence([&] {
+                    (void)clock_span("2026-03-29T02:30:00", "2026-03-29T04:00:00", set_back);
+                }),
+                testing::HasSubstr("skipped"));
+}
+
 TEST_F(ClockTimeTest, RefusesInvalidTimes) {
     for (const char* text : {"", "20:15", "20:15:00:", "20:15:00:1x", "25:00:00", "20:60:00", "-1",
                              "2026-13-01T20:15:00", "2026-02-30T20:15:00", "T20:15:00",

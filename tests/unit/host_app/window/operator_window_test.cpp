@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <thread>
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "common/gl/objects/texture.h"
+#include "tests/support/child_program.h"
 #include "tests/support/virtual_screen.h"
 #include "tests/unit/host_app/flight/given_commands.h"
 
@@ -135,6 +137,25 @@ TEST_F(OperatorInput, HeldKeysActAsLongAsTheyAreHeld) {
         after({"keyup", k.key});
         EXPECT_FALSE(look(0.5).steers()) << k.key;
     }
+}
+
+TEST_F(OperatorInput, KeysAreThoseOnTheCaps) {
+    const auto use_layout = [&](const char* layout) {
+        return run_to_end("/usr/bin/setxkbmap", {layout}, {screen_->environment()}).status;
+    };
+    if (!std::filesystem::exists("/usr/bin/setxkbmap") || use_layout("fr") != 0)
+        GTEST_SKIP() << "SKIPPED: setxkbmap is not installed";
+    look(0);
+    // xdotool presses the key whose cap has this label.
+    const FlightInput input = after({"key", "m"});
+    EXPECT_FALSE(input.find<command::Cut>()) << "a US keyboard has ; there";
+    EXPECT_TRUE(after({"key", "semicolon"}).find<command::Cut>());
+    after({"keydown", "z"});
+    EXPECT_EQ(look(0.5).dolly, 0) << "a US keyboard has W there";
+    after({"keyup", "z", "keydown", "w"});
+    EXPECT_NEAR(look(0.5).dolly, 0.4, 1e-6);
+    after({"keyup", "w"});
+    EXPECT_EQ(use_layout("us"), 0);
 }
 
 TEST_F(OperatorInput, KeysGiveTheirCommands) {

@@ -52,6 +52,7 @@ class FakeCamera final : public SensorCamera {
 /// Has sent as many pulses as the test says.
 class FakeTrigger final : public RigTrigger {
   public:
+    void clock_was_set() override {}
     void announce(std::uint64_t) override {}
     std::optional<std::uint64_t> index_of(TaiTime) override { return 7; }
     std::uint64_t pulses() const override { return sent; }

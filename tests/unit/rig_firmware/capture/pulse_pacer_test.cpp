@@ -54,6 +54,22 @@ TEST_F(PulsePacerTest, GoesBackWithAClockThatIsSetBack) {
     EXPECT_EQ(pacer_.missed(), 0u);
 }
 
+TEST_F(PulsePacerTest, WhatAClockLeapsOverWasNotMissed) {
+    const MonotonicTime start(seconds(100));
+    const auto take_at = [&](std::chrono::nanoseconds tai, std::chrono::nanoseconds passed) {
+        Pulse pulse = pacer_.due(day_ + tai);
+        pulse.monotonic = start + passed;
+        pacer_.take(pulse);
+    };
+    take_at(seconds(1), seconds(0));
+    take_at(std::chrono::hours(1), milliseconds(350));
+    EXPECT_EQ(pacer_.missed(), 2u) << "the pulses of the 350 ms that passed";
+    EXPECT_EQ(pacer_.clock_steps(), 1u);
+    take_at(std::chrono::hours(1) + seconds(2), seconds(2) + milliseconds(350));
+    EXPECT_EQ(pacer_.missed(), 2u + 19u) << "two seconds without a frame are missed ones";
+    EXPECT_EQ(pacer_.clock_steps(), 1u);
+}
+
 TEST(PulsePacer, WaitsOnTheClock) {
     PulsePacer slow(PulseGrid(0.01));
     EXPECT_FALSE(slow.wait_next(milliseconds(1)) && slow.wait_next(milliseconds(1)));

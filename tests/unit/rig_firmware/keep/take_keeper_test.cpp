@@ -7,6 +7,7 @@
 
 #include "common/take/take_check.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/common/take/small_take.h"
 
@@ -21,7 +22,7 @@ class TakeKeeperTest : public testing::Test {
     std::vector<std::filesystem::path> files() const {
         std::vector<std::filesystem::path> found;
         for (const auto& entry : std::filesystem::directory_iterator(config().folder))
-            found.push_back(entry.path());
+            if (entry.path().extension() == ".mkv") found.push_back(entry.path());
         return found;
     }
     static void offer(TakeKeeper& keeper, std::uint64_t pulse) {
@@ -73,12 +74,77 @@ TEST_F(TakeKeeperTest, DropsTheOldestFilesBeyondItsRoom) {
     EXPECT_TRUE(std::filesystem::exists(config().folder / "north-20200101T000500Z.mkv"));
     EXPECT_TRUE(std::filesystem::exists(config().folder / "south-20200101T000000Z.mkv"))
         << "another rig's";
-    small.hours = 0.1;
+}
+
+TEST_F(TakeKeeperTest, ErasesNothingByTheClockOfTheDay) {
+    std::filesystem::create_directories(config().folder);
+    // By the clock of this computer, as it was set then, one is days old and one of tomorrow.
+    for (const auto& [name, age] : {std::pair("north-20390101T000000Z.mkv", 72h),
+                                    std::pair("north-20200101T000500Z.mkv", -24h)}) {
+        write_small_take(config().folder / name, {"north"}, 1, 20);
+        std::filesystem::last_write_time(config().folder / name,
+                                         std::filesystem::file_time_type::clock::now() - age);
+    }
+    TakeKeeper keeper(config(), "north", 25);
+    EXPECT_EQ(files().size(), 2u);
+    EXPECT_EQ(keeper.erased(), 0u);
+}
+
+TEST_F(TakeKeeperTest, ErasesInTheOrderInWhichItKeptAndSaysSo) {
+    std::filesystem::create_directories(config().folder);
+    const auto keep = [&](const RigConfig::Keep& how) {
+        return TakeKeeper(how, "north", 25).line();
+    };
+    const auto add = [&](const char* name) {
+        write_small_take(config().folder / name, {"north"}, 1, 20);
+        keep(config());
+    };
+    // The clock was in 2039, and was set right then.
+    add("north-20390101T000000Z.mkv");
+    add("north-20260101T000000Z.mkv");
+    const auto of_2039 = config().folder / "north-20390101T000000Z.mkv";
     std::filesystem::last_write_time(
-        config().folder / "north-20200101T000500Z.mkv",
-        std::filesystem::file_time_type::clock::now() - std::chrono::minutes(10));
-    { TakeKeeper keeper(small, "north", 25); }
-    EXPECT_FALSE(std::filesystem::exists(config().folder / "north-20200101T000500Z.mkv"));
+        of_2039, std::filesystem::file_time_type::clock::now() + std::chrono::hours(100'000));
+    RigConfig::Keep small = config();
+    small.gigabytes = 1.5 * static_cast<double>(std::filesystem::file_size(of_2039)) / 1e9;
+    const std::string line = keep(small);
+    EXPECT_FALSE(std::filesystem::exists(of_2039)) << "it was kept first";
+    EXPECT_TRUE(std::filesystem::exists(config().folder / "north-20260101T000000Z.mkv"));
+    EXPECT_NE(line.find("erased 1 files, the last north-20390101T000000Z.mkv"), std::string::npos)
+        << line;
+}
+
+TEST_F(TakeKeeperTest, LosesNoFrameWhenThePulsesGoBack) {
+    RigConfig::Keep one_file = config();
+    one_file.minutes = 10;
+    {
+        TakeKeeper keeper(one_file, "north", 25);
+        for (std::uint64_t i = 0; i < 20; ++i) offer(keeper, 100'000 + i);
+        for (std::uint64_t i = 0; i < 20; ++i) offer(keeper, 10'000 + i);
+        ASSERT_TRUE(eventually([&] { return files().size() == 2; }));
+    }
+    std::set<std::uint64_t> pulses;
+    for (const auto& file : files())
+        for (const TakeReader::Frame& frame : TakeReader(file).frames(0))
+            pulses.insert(frame.pulse);
+    EXPECT_EQ(pulses.size(), 40u);
+}
+
+TEST(KeepLedger, AgesByTheTimeThatWasKept) {
+    TemporaryFolder folder;
+    const std::vector<KeptFile> files{{folder.path() / "north-20390101T000000Z.mkv", {}, 1}};
+    KeepLedger ledger(folder.path(), "north");
+    ledger.reconcile(files);
+    EXPECT_EQ(ledger.age_s(ledger.entries().front()), 0);
+    ledger.advance(3600);
+    ledger.save();
+    KeepLedger later(folder.path(), "north");
+    later.reconcile(files);
+    later.advance(60);
+    ASSERT_EQ(later.entries().size(), 1u);
+    EXPECT_NEAR(later.age_s(later.entries().front()), 3660, 1e-9);
+    write_bytes(folder.path() / ".north.keep.json", {});
+    EXPECT_TRUE(KeepLedger(folder.path(), "north").entries().empty()) << "it is begun anew";
 }
 
 TEST_F(TakeKeeperTest, LeavesWhatItHasWhereNothingIsPublished) {

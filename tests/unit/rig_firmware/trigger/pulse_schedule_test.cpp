@@ -35,6 +35,15 @@ TEST_F(PulseScheduleTest, JoinsTheRunningIndexWhenTheFirstPulseHasPassed) {
     EXPECT_EQ(schedule_.skipped(), 0u);
 }
 
+TEST_F(PulseScheduleTest, WaitsForNoFirstPulseAgainAfterTheClockWasSetBack) {
+    EXPECT_EQ(schedule_.next(at(k0), k0 + 1), k0 + 1);
+    EXPECT_TRUE(send(k0 + 1, 10us));
+    constexpr std::uint64_t an_hour = 360'000;
+    EXPECT_EQ(schedule_.next(at(k0 - an_hour), k0 + 1), k0 - an_hour + 1);
+    EXPECT_TRUE(send(k0 - an_hour + 1, 10us));
+    EXPECT_EQ(schedule_.next(at(k0 - an_hour + 1) + 1ms, k0 + 1), k0 - an_hour + 2);
+}
+
 TEST_F(PulseScheduleTest, SendsEveryPulseOnce) {
     TaiTime now = at(k0) - 1ms;
     for (std::uint64_t i = 0; i < 1000; ++i) {

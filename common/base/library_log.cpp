@@ -1,0 +1,53 @@
+#include "common/base/library_log.h"
+
+namespace vantage {
+namespace {
+
+/// Counts by library. Never destroyed, since libraries write on threads of their own to the end.
+struct LibraryCounts {
+    std::mutex mutex;
+    std::vector<std::pair<std::string, std::uint64_t>> all;
+};
+
+LibraryCounts& library_counts() {
+    static auto* const counts = new LibraryCounts;
+    return *counts;
+}
+
+void count_message(const std::string& library) {
+    LibraryCounts& counts = library_counts();
+    const std::lock_guard lock(counts.mutex);
+    for (auto& [name, count] : counts.all)
+        if (name == library) {
+            ++count;
+            return;
+        }
+    counts.all.emplace_back(library, 1);
+}
+
+}  // namespace
+
+LibraryLog::LibraryLog(std::string library, LogLevel level)
+    : library_(std::move(library)), level_(level) {}
+
+void LibraryLog::note(std::string message) {
+    while (!message.empty() && (message.back() == '\n' || message.back() == ' '))
+        message.pop_back();
+    if (message.empty()) return;
+    count_message(library_);
+    const std::lock_guard lock(mutex_);
+    ++all_;
+    const auto times = limiter_.count(1, MonotonicClock::now());
+    if (!times || level_ < log_threshold()) return;
+    log_line(level_, *times == 1 ? fmt::format("{}: {}", library_, message)
+                                 : fmt::format("{}: {} messages ({} since the start), the last: {}",
+                                               library_, *times, all_, message));
+}
+
+std::vector<std::pair<std::string, std::uint64_t>> LibraryLog::counts() {
+    LibraryCounts& counts = library_counts();
+    const std::lock_guard lock(counts.mutex);
+    return counts.all;
+}
+
+}  // namespace vantage
