@@ -213,7 +213,7 @@ Prometheus. Times are in seconds. `hw_config/grafana/vantage.json` is a dashboar
     for kind, name, words in calls:
         ending = {"counter": "_total", "info": "_info"}.get(kind, "")
         meaning = "".join(re.findall(r'"((?:[^"\\]|\\.)*)"', words))
-        meaning = re.sub(r"see (\w+)", r"see `vantage_\1`", meaning) if meaning.startswith("Deprecated") else meaning
+        meaning = re.sub(r"^Deprecated: see (\w+)\.", r"Deprecated, old name of `vantage_\1`.", meaning)
         text += f"| `vantage_{name}{ending}` | {kind} | {cell(meaning)} |\n"
     return text
 
