@@ -73,7 +73,8 @@ DeskArrangement load_desk(const std::filesystem::path& path) {
 std::string to_toml(const DeskArrangement& desk) {
     const DeskSwitches& switches = desk.switches;
     std::string text = fmt::format(
-        "# The arrangement of Vantage's desk; docs/desk_file.md explains the keys.\nversion = {}\n"
+        "# The arrangement of Vantage's desk; docs/reference/formats.md explains the "
+        "keys.\nversion = {}\n"
         "panels = {}\nrigs = {}\nrigs_apart = {}\nfigures = {}\noutside = {}\n\n[eye]\nazimuth_deg "
         "= {:.1f}\n"
         "elevation_deg = {:.1f}\nnearness = {:.2f}\n",

@@ -47,8 +47,8 @@ struct DeskArrangement {
     bool operator==(const DeskArrangement&) const = default;
 };
 
-/// Reads a desk file (docs/desk_file.md lists the keys). Throws Error with file and line for an
-/// unknown key or a value outside its range.
+/// Reads a desk file (docs/reference/formats.md lists the keys). Throws Error with file and line
+/// for an unknown key or a value outside its range.
 DeskArrangement load_desk(const std::filesystem::path& path);
 /// Formats a desk file that load_desk() reads; angles are rounded to 0.1 degrees.
 std::string to_toml(const DeskArrangement& desk);

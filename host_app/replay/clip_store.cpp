@@ -80,7 +80,8 @@ ClipBook load_clips(const std::filesystem::path& path, double pulse_rate_hz) {
 
 std::string to_toml(const ClipBook& book) {
     std::string text = fmt::format(
-        "# Clips and play list of Vantage; docs/replay.md explains the keys.\nversion = {}\n"
+        "# Clips and play list of Vantage; docs/reference/formats.md explains the keys.\nversion = "
+        "{}\n"
         "pulse_rate_hz = {}\nprogramme_speed = {}\nlist_loops = {}\n",
         clip_file_version, book.pulse_rate_hz, book.programme_speed, book.list_loops);
     for (const auto& [number, clip] : book.clips)

@@ -9,8 +9,8 @@
 
 namespace vantage {
 
-/// Reads a clip file (docs/replay.md shows every key). Throws Error with file and line if a value
-/// does not fit, and if the file has another pulse rate.
+/// Reads a clip file (docs/reference/formats.md shows every key). Throws Error with file and line
+/// if a value does not fit, and if the file has another pulse rate.
 ClipBook load_clips(const std::filesystem::path& path, double pulse_rate_hz);
 
 /// The text of a clip file, which load_clips() reads back.

@@ -11,7 +11,7 @@ void add_clock(const RigStatus& rig, std::vector<Finding>& findings) {
             {rig.rig, false, clock_text(rig),
              "at the rig: sudo systemctl enable --now vantage-ptp vantage-phc2sys, or "
              "vantage-ptp-software where ethtool -T lists no hardware-transmit; the host leads "
-             "(docs/deploy.md, 5)"});
+             "(docs/build/deploy.md, 5)"});
     if (const std::string worry = tai_warning(rig); !worry.empty())
         findings.push_back(
             {rig.rig, true, worry, "chrony with leapsectz right/UTC on all computers or on none"});
@@ -23,7 +23,7 @@ void add_calibration(const RigStatus& rig, const std::string& stage_file,
     findings.push_back(
         {rig.rig, false, "it has no calibration from a file, as only a virtual rig may",
          fmt::format("vantage-calib stereo --live {} --rig {}=FOLDER --board-file board.toml -o "
-                     "FOLDER/calibration.yaml (docs/calibration.md)",
+                     "FOLDER/calibration.yaml (docs/build/calibration.md)",
                      stage_file, rig.rig)});
 }
 

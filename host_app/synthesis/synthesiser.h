@@ -87,7 +87,8 @@ struct SynthesiserEntry {
 };
 /// Returns the product's own synthesisers.
 std::vector<SynthesiserEntry> synthesiser_entries();
-/// Returns the gallery's historic synthesisers, which run on the same input (docs/gallery.md).
+/// Returns the gallery's historic synthesisers, which run on the same input
+/// (docs/develop/gallery.md).
 std::vector<SynthesiserEntry> gallery_entries();
 /// Returns the names, summaries and options of all synthesisers, for the help.
 std::string synthesisers_help();

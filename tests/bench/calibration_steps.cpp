@@ -1,5 +1,5 @@
 // What calibration does from a board to a stage, on pictures whose truth is known: writes the strip
-// of docs/calibration.md.
+// of docs/build/calibration.md.
 //   calibration_steps docs/pictures/calibration_steps.jpg
 #include <algorithm>
 #include <string>

@@ -1,6 +1,7 @@
 // What the gallery's systems are worth beside `fused` on the same moments: writes the tables of
-// docs/results/gallery.md and docs/gallery.md between their markers, the contact sheet of one
-// moment, docs/pictures/gallery.jpg, and a strip of each system, docs/pictures/gallery/NAME.jpg.
+// docs/results/gallery.md and docs/develop/gallery.md between their markers, the contact sheet of
+// one moment, docs/pictures/gallery.jpg, and a strip of each system,
+// docs/pictures/gallery/NAME.jpg.
 #include <algorithm>
 #include <iostream>
 #include <map>

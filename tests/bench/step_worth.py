@@ -16,7 +16,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TRUTH = ROOT / "build/release/bin/live_truth"
-# Name: what the table calls it (with the step's number in docs/synthesis.md), shader, definition.
+# Name: what the table calls it (with the step's number in docs/develop/synthesis.md), shader, definition.
 STEPS = {
     "nothing": ("nothing", None, None),
     "silhouettes": ("foreground held by other rigs' silhouettes (2)", "foreground_carve.frag", "WITHOUT_SILHOUETTES"),

@@ -1,5 +1,5 @@
 // What the steps of `fused` do to one moment of the virtual stage, with depth of a rig's own
-// matching: writes the strip of docs/synthesis.md.
+// matching: writes the strip of docs/develop/synthesis.md.
 //   synthesis_steps docs/pictures/synthesis_steps.jpg
 #include <algorithm>
 #include <chrono>

@@ -63,7 +63,7 @@ settings=$work/apt.conf
 apt-config dump | grep -E '^Acquire::([a-z]+::([^ ]*::)?Proxy|Check-|Retries)' >"$settings" || true
 sources=$("$tools/debian_sources.sh" "$codename")
 if [ "$codename" = bookworm ]; then
-  # As docs/deploy.md says: libcamera and libgpiod are too old there.
+  # As docs/build/deploy.md says: libcamera and libgpiod are too old there.
   sources+=$'\n'$(awk '$3 == "bookworm" {print $1, $2, "bookworm-backports main"; exit}' <<<"$sources")
 fi
 "${as_root[@]}" mmdebstrap --quiet --mode=root --variant=apt --aptopt="$settings" "$codename" "$root" - <<<"$sources" 2>"$work/root.log" ||

@@ -8,7 +8,8 @@
 
 namespace vantage {
 
-/// The tables of commands and lamps in docs/control.md and docs/replay_commands.md, as Markdown.
+/// The tables of commands and lamps in docs/operate/control.md and docs/reference/commands.md, as
+/// Markdown.
 std::string command_table(ControlPage page);
 std::string lamp_table(ControlPage page);
 /// Both tables for `vantage control --json`.

@@ -115,9 +115,10 @@ std::unique_ptr<JogDevices> ShowOptions::make_deck() const {
 void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
     namespace group = option_group;
     command
-        .add_option("--audio", audio,
-                    "Play the sound of SOURCE with the programme (docs/sound.md): alsa:DEVICE "
-                    "(?channels=3,4) or a file (?loop=yes)")
+        .add_option(
+            "--audio", audio,
+            "Play the sound of SOURCE with the programme (docs/operate/sound.md): alsa:DEVICE "
+            "(?channels=3,4) or a file (?loop=yes)")
         ->type_name("SOURCE")
         ->group(group::input);
     command
@@ -218,11 +219,12 @@ void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
     std::string ports;
     for (const PortEntry& entry : port_entries()) ports += "\n  " + entry.words;
     command
-        .add_option("--control", controls,
-                    "Accept remote control on URL (docs/control.md; vantage control lists the "
-                    "commands); only from this computer without open=yes; repeat the option for "
-                    "more ports:" +
-                        ports)
+        .add_option(
+            "--control", controls,
+            "Accept remote control on URL (docs/operate/control.md; vantage control lists the "
+            "commands); only from this computer without open=yes; repeat the option for "
+            "more ports:" +
+                ports)
         ->type_name("URL")
         ->allow_extra_args(false)
         ->group(group::control);

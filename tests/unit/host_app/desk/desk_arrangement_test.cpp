@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/data_folder.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"
 
 namespace vantage {
@@ -36,6 +37,13 @@ class DeskFile : public testing::Test {
     TemporaryFolder folder_;
     std::filesystem::path file_ = folder_.path() / "stage.desk.toml";
 };
+
+TEST_F(DeskFile, DocumentedExampleLoads) {
+    const DeskArrangement desk = load_desk(source_folder() / "hw_config/desk.toml");
+    ASSERT_TRUE(desk.window && desk.rigs_window);
+    EXPECT_EQ(desk.window->width, 1280);
+    EXPECT_EQ(desk.rigs_window->x, 1920);
+}
 
 TEST_F(DeskFile, IsReadAsWritten) {
     write(to_toml(example()));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/data_folder.h"
+#include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"
 
 namespace vantage {
@@ -41,6 +42,12 @@ class ClipFile : public testing::Test {
     TemporaryFolder folder_;
     std::filesystem::path file_ = folder_.path() / "stage.clips.toml";
 };
+
+TEST_F(ClipFile, DocumentedExampleLoads) {
+    const ClipBook book = load_clips(source_folder() / "hw_config/clips.toml", 25);
+    EXPECT_EQ(book.clips.at(1).name, "the leap");
+    EXPECT_EQ(book.list.size(), 1u);
+}
 
 TEST_F(ClipFile, SurvivesARoundTrip) {
     write(to_toml(example()));
