@@ -1,9 +1,12 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "common/image/image.h"
 
 namespace vantage {
 
@@ -33,5 +36,9 @@ struct BoardSighting {
 
     bool found() const { return !corners.empty(); }
 };
+
+/// Share of the pixels inside the quadrangle (its corners in order, in pixels) that are as bright
+/// as a pixel can be: glare on a board. 0 where the quadrangle lies outside the picture.
+double burnt_out_share(const GreyImage& picture, const std::array<Eigen::Vector2d, 4>& outline);
 
 }  // namespace vantage

@@ -7,7 +7,7 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "calib_tools/board/burnt_out_share.h"
+#include "calib_tools/board/board_view.h"
 #include "calib_tools/board/corner_refiner.h"
 #include "calib_tools/board/marker_dictionary.h"
 #include "calib_tools/board/median.h"

@@ -13,8 +13,8 @@
 #include "calib_tools/stage/stage_calibration.h"
 #include "common/geometry/rectification_map.h"
 #include "common/rectification/rectify_reference.h"
-#include "tests/bench/picture_sheet.h"
-#include "tests/bench/strip_program.h"
+#include "tests/bench/support/picture_sheet.h"
+#include "tests/bench/support/strip_program.h"
 #include "tests/support/boards/rendered_stage.h"
 
 namespace vantage {

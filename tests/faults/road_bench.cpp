@@ -13,7 +13,7 @@
 #include "common/receive/stage_receiver.h"
 #include "common/wire/curve_keys.h"
 #include "rig_firmware/stream/publisher.h"
-#include "tests/bench/markdown_tables.h"
+#include "tests/bench/support/markdown_tables.h"
 #include "tests/faults/impaired_road.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/wire_frames.h"

@@ -7,7 +7,7 @@
 
 #include "common/gl/context/egl_context.h"
 #include "host_app/fused/staged_preparer.h"
-#include "tests/bench/truth_regions.h"
+#include "tests/bench/synthesis/truth_regions.h"
 #include "tests/unit/host_app/surfaces/painted_rig.h"
 
 namespace vantage {

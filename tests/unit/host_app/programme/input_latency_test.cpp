@@ -1,4 +1,4 @@
-#include "host_app/programme/input_latency.h"
+#include "host_app/programme/stats/input_latency.h"
 
 #include <gtest/gtest.h>
 

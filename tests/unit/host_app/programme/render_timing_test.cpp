@@ -1,4 +1,4 @@
-#include "host_app/programme/render_timing.h"
+#include "host_app/programme/stats/render_timing.h"
 
 #include <gtest/gtest.h>
 

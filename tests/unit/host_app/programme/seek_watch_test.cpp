@@ -1,4 +1,4 @@
-#include "host_app/programme/seek_watch.h"
+#include "host_app/programme/stats/seek_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 #include "host_app/views/depth_view.h"
 #include "rig_firmware/stereo/disparity/temporal_pass.h"
 #include "rig_firmware/stereo/matcher.h"
-#include "tests/bench/matching_rig.h"
+#include "tests/bench/synthesis/matching_rig.h"
 
 namespace vantage {
 

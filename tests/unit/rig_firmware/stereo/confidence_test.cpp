@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/bench/random_scene.h"
-#include "tests/bench/stereo_measures.h"
+#include "tests/bench/stereo/random_scene.h"
+#include "tests/bench/stereo/stereo_measures.h"
 
 namespace vantage {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "tests/bench/filmed_pair.h"
+#include "tests/bench/stereo/filmed_pair.h"
 
 namespace vantage {
 namespace {

@@ -2,7 +2,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/image/image_file.h"
-#include "tests/bench/stereo_measures.h"
+#include "tests/bench/stereo/stereo_measures.h"
 #include "tests/support/data_folder.h"
 
 namespace vantage {

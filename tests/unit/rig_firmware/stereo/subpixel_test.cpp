@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "tests/bench/stereo_measures.h"
+#include "tests/bench/stereo/stereo_measures.h"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "common/gl/context/egl_context.h"
 #include "common/image/image_file.h"
-#include "tests/bench/filmed_pair.h"
+#include "tests/bench/stereo/filmed_pair.h"
 #include "tests/references/stereo/temporal_reference.h"
 
 namespace vantage {

@@ -1,0 +1,304 @@
+#include "tests/bench/synthesis/stepped_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "common/base/error.h"
+#include "common/image/image_file.h"
+#include "host_app/programme/view_painter.h"
+#include "host_app/view_sets/image_metrics.h"
+#include "tests/bench/support/cpu_time.h"
+#include "tests/bench/synthesis/fidelity.h"
+
+namespace vantage {
+namespace {
+
+using std::chrono::nanoseconds;
+
+nanoseconds nanoseconds_of(double s) { return nanoseconds(static_cast<std::int64_t>(s * 1e9)); }
+
+/// What a real camera would see, and where performers are in its picture.
+struct Truth {
+    ColourImage colour;
+    cv::Mat1b performers, edges, regions;
+};
+
+/// A camera that stands still on the stage.
+class StillCamera {
+  public:
+    StillCamera(VirtualStage& stage, double azimuth_deg, cv::Size size) : stage_(&stage) {
+        const StereoCalibration rig = rig_at(azimuth_deg, size);
+        state_.world_from_camera = rig.world_from_left;
+        state_.field_of_view_rad = 2 * std::atan(0.5 * size.width / rig.left.K()(0, 0));
+        camera_ = {size.width, size.height, state_.K(size.width, size.height),
+                   state_.world_from_camera};
+        regions_.emplace(*stage_, camera_);
+    }
+
+    const CameraState& state() const { return state_; }
+
+    Truth film(nanoseconds time) const {
+        const StageRendering seen = stage_->render(camera_, time);
+        constexpr int band_px = 5;
+        Truth truth{
+            seen.colour, regions_->performers(seen.depth_m), {}, regions_->of(seen.depth_m)};
+        truth.edges = band_of(truth.performers, band_px);
+        return truth;
+    }
+
+  private:
+    VirtualStage* stage_;
+    CameraState state_;
+    StageCamera camera_;
+    std::optional<TruthRegions> regions_;
+};
+
+/// The squared error of pictures, by region.
+class RegionalError {
+  public:
+    void add(const ColourImage& picture, const Truth& truth) {
+        cv::Mat off;
+        cv::subtract(picture, truth.colour, off, cv::noArray(), CV_32F);
+        off = off.mul(off);
+        for (const TruthRegion region : all_truth_regions) {
+            const cv::Mat1b where = truth.regions == static_cast<uchar>(region);
+            const cv::Scalar sum = cv::mean(off, where) * cv::countNonZero(where);
+            auto& [error, pixels] = regions_[region];
+            error += sum[0] + sum[1] + sum[2];
+            pixels += cv::countNonZero(where);
+        }
+    }
+    /// Per cent of all pixels and of all squared error, each.
+    std::string row() const {
+        double errors = 0, all = 0;
+        for (const auto& [region, sums] : regions_) errors += sums.first, all += sums.second;
+        std::string text;
+        for (const auto& [region, sums] : regions_)
+            text += fmt::format(" {:.1f} / {:.1f} |", 100 * sums.second / all,
+                                100 * sums.first / errors);
+        return text;
+    }
+
+  private:
+    std::map<TruthRegion, std::pair<double, double>> regions_;
+};
+
+/// One synthesiser, looked at from several cameras.
+struct Measured {
+    explicit Measured(double noise_sigma) : set(noise_sigma), performers(noise_sigma) {}
+
+    Fidelity fidelity;
+    RegionalError regions;
+    Flicker set, performers;
+    double edge_error = 0, set_psnr_db = 0, foreground_psnr_db = 0;
+    int edge_pictures = 0;
+    std::vector<double> take_ms, prepare_ms, render_ms;
+    std::map<std::size_t, std::pair<ColourImage, Truth>> before;  ///< by camera
+};
+
+double median(std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2),
+                     values.end());
+    return values[values.size() / 2];
+}
+
+void write_beside(const std::string& folder, const std::string& name, const ColourImage& picture,
+                  const ColourImage& truth) {
+    std::filesystem::create_directories(folder);
+    cv::Mat both;
+    cv::hconcat(picture, truth, both);
+    write_colour_image(std::filesystem::path(folder) / (name + ".png"), ColourImage(both));
+}
+
+/// What is learnt of the set while performers walk a whole loop of the stage.
+Background set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrary& library,
+                         VirtualStage& stage, std::span<const std::unique_ptr<MatchingRig>> rigs,
+                         bool with_own_depth) {
+    constexpr std::chrono::milliseconds loop{24000}, step{800};
+    // Told to be closer in time than they are, so that they make one mean.
+    constexpr double told_dt_s = 0.2;
+    const std::unique_ptr<InstantPreparer> preparer = synthesiser.make_preparer(library);
+    if (!preparer->background_access()) fail("the synthesiser {} learns no set", synthesiser.name);
+    std::uint64_t instant = 1'000'000;  // noise of its own
+    for (std::chrono::milliseconds time{0}; time < loop; time += step) {
+        std::vector<DepthView> views;
+        for (const auto& rig : rigs) {
+            rig->film(stage, time, instant);
+            views.push_back(rig->view(with_own_depth));
+        }
+        preparer->take(views, told_dt_s);
+        ++instant;
+    }
+    return preparer->background_access()->learnt();
+}
+
+std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
+    VirtualStage stage(library, set), truth_stage(library, set);
+    std::vector<std::unique_ptr<MatchingRig>> rigs;
+    for (const double place : {-1.5, -0.5, 0.5, 1.5})
+        rigs.push_back(std::make_unique<MatchingRig>(library, place * wanted.apart_deg,
+                                                     rigs.size() + 1, wanted.rigs));
+    std::vector<TruthRegions> rig_regions;
+    if (!wanted.exact_in.empty())
+        for (const auto& rig : rigs) rig_regions.emplace_back(truth_stage, rig->camera());
+    // Between the middle rigs, between the last two, and beside the last.
+    std::vector<StillCamera> cameras;
+    for (const double place : {0.0, 1.0, 1.6})
+        cameras.emplace_back(truth_stage, place * wanted.apart_deg, wanted.rigs.size);
+
+    const PictureFormat format{.width_px = wanted.rigs.size.width,
+                               .height_px = wanted.rigs.size.height};
+    const PrepareLevel& prepare_level =
+        prepare_levels()[static_cast<std::size_t>(wanted.prepare_level)];
+    const RenderLevel& render_level =
+        render_levels()[static_cast<std::size_t>(wanted.render_level)];
+    struct Runner {
+        std::unique_ptr<InstantPreparer> preparer;
+        std::unique_ptr<ViewPainter> painter;
+        Measured measured;
+    };
+    std::vector<Runner> runners;
+    for (const std::string& name : wanted.synthesisers) {
+        const SynthesiserEntry entry = find_synthesiser(name);
+        runners.push_back({entry.make_preparer(library),
+                           std::make_unique<ViewPainter>(entry, format, library),
+                           Measured(wanted.rigs.noise_sigma)});
+    }
+
+    if (wanted.knows_set) {
+        const auto learnt = std::make_shared<const Background>(
+            set_of_a_loop(find_synthesiser(wanted.synthesisers.front()), library, stage, rigs,
+                          !wanted.with_exact_depth));
+        for (Runner& runner : runners)
+            if (BackgroundAccess* memory = runner.preparer->background_access())
+                memory->begin_with(learnt);
+    }
+
+    const auto instants = static_cast<std::uint64_t>(
+        std::llround((wanted.settling_s + wanted.measured_s) * wanted.rate_hz));
+    const auto settled =
+        static_cast<std::uint64_t>(std::llround(wanted.settling_s * wanted.rate_hz));
+    for (std::uint64_t k = 0; k < instants; ++k) {
+        const nanoseconds time =
+            nanoseconds_of(wanted.start_s + static_cast<double>(k) / wanted.rate_hz);
+        std::vector<DepthView> views;
+        for (const auto& rig : rigs) {
+            rig->film(stage, time, k);
+            views.push_back(rig->view(!wanted.with_exact_depth));
+            if (wanted.exact_in.empty()) continue;
+            const DepthImage exact_m = rig->view(false).depth_m;
+            const cv::Mat1b regions = rig_regions[views.size() - 1].of(exact_m);
+            views.back().depth_m = views.back().depth_m.clone();
+            for (const TruthRegion region : wanted.exact_in)
+                exact_m.copyTo(views.back().depth_m, regions == static_cast<uchar>(region));
+        }
+        std::vector<Truth> truths;
+        if (k >= settled)
+            for (const StillCamera& camera : cameras) truths.push_back(camera.film(time));
+        for (std::size_t r = 0; r < runners.size(); ++r) {
+            Runner& runner = runners[r];
+            Measured& measured = runner.measured;
+            double before_ms = cpu_ms();
+            runner.preparer->take(views, 1 / wanted.rate_hz);
+            glFinish();
+            measured.take_ms.push_back(cpu_ms() - before_ms);
+            runner.preparer->improve(
+                view_of(cameras[0].state(), {format.width_px, format.height_px}));
+            for (std::size_t c = 0; c < cameras.size(); ++c) {
+                const VirtualView target =
+                    view_of(cameras[c].state(), {format.width_px, format.height_px});
+                before_ms = cpu_ms();
+                const auto instant = runner.preparer->prepare(target, prepare_level);
+                glFinish();
+                if (c == 0) measured.prepare_ms.push_back(cpu_ms() - before_ms);
+                if (k < settled) break;
+                before_ms = cpu_ms();
+                const ColourImage picture =
+                    runner.painter->paint(*instant, cameras[c].state(), render_level);
+                measured.render_ms.push_back(cpu_ms() - before_ms);
+                const Truth& truth = truths[c];
+                measured.fidelity.add(picture, truth.colour);
+                measured.regions.add(picture, truth);
+                if (cv::countNonZero(truth.edges) > 0) {
+                    measured.set_psnr_db += psnr_db(picture, truth.colour, ~truth.performers);
+                    measured.foreground_psnr_db += psnr_db(picture, truth.colour, truth.performers);
+                    measured.edge_error += mean_error(picture, truth.colour, truth.edges);
+                    ++measured.edge_pictures;
+                }
+                if (const auto found = measured.before.find(c); found != measured.before.end()) {
+                    const auto& [picture_before, truth_before] = found->second;
+                    const cv::Mat1b moving = truth.performers | truth_before.performers;
+                    const cv::Mat1b still = ~moving;
+                    measured.set.add(picture_before, truth_before.colour, picture, truth.colour,
+                                     still);
+                    measured.performers.add(picture_before, truth_before.colour, picture,
+                                            truth.colour, moving);
+                }
+                measured.before[c] = {picture, truth};
+                if (k + 1 == instants && !wanted.pictures.empty())
+                    write_beside(wanted.pictures,
+                                 fmt::format("{}_set{}_{}", wanted.synthesisers[r], set, c),
+                                 picture, truth.colour);
+            }
+        }
+    }
+    std::string text;
+    for (std::size_t r = 0; r < runners.size(); ++r) {
+        const Measured& m = runners[r].measured;
+        text += fmt::format(
+            "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} % | {:.1f} | {:.2f} | {:.2f} |",
+            wanted.synthesisers[r], set, m.fidelity.psnr_db(),
+            m.set_psnr_db / std::max(m.edge_pictures, 1),
+            m.foreground_psnr_db / std::max(m.edge_pictures, 1), m.fidelity.ssim(),
+            100 * m.fidelity.outliers(), m.edge_error / std::max(m.edge_pictures, 1),
+            m.set.against_a_camera(), m.performers.against_a_camera());
+        if (wanted.with_times)
+            text += fmt::format(" {:.0f} | {:.0f} | {:.0f} |", median(m.take_ms),
+                                median(m.prepare_ms), median(m.render_ms));
+        if (wanted.with_regions) text += m.regions.row();
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& wanted) {
+    std::string text = fmt::format(
+        "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}; {:g} "
+        "instants a second, prepared at level {} and rendered at level {}; three cameras between "
+        "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
+        "| synthesiser | scene | PSNR dB | of the background | of performers | SSIM | outlier "
+        "pixels | performers' "
+        "edges: mean error | flicker: background | performers |{}\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
+        wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
+        wanted.with_exact_depth ? "exact" : "own", wanted.knows_set ? ", a set learnt before" : "",
+        wanted.rate_hz, wanted.prepare_level, wanted.render_level, wanted.settling_s,
+        wanted.measured_s,
+        wanted.with_times ? " Times are of the processor, milliseconds an instant or picture." : "",
+        wanted.with_times ? " take | prepare | render |" : "",
+        wanted.with_times ? " --- | --- | --- |" : "");
+    if (wanted.with_regions) {
+        std::string names, rule;
+        for (const TruthRegion region : all_truth_regions) {
+            names += fmt::format(" {} |", words_of(region));
+            rule += " --- |";
+        }
+        text.insert(text.rfind("\n", text.size() - 2), names);
+        text.insert(text.size() - 1, rule);
+    }
+    for (const std::uint64_t set : wanted.sets) text += rows(library, wanted, set);
+    return text;
+}
+
+}  // namespace vantage

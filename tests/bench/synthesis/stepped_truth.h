@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/gl/shader_library.h"
+#include "tests/bench/synthesis/matching_rig.h"
+#include "tests/bench/synthesis/truth_regions.h"
+
+namespace vantage {
+
+/// Films of the moving virtual stage, an instant after the other, each waited for.
+struct SteppedTruth {
+    std::vector<std::string> synthesisers{"fused"};
+    std::vector<std::uint64_t> sets{0};
+    MatchingRig::Settings rigs{.disparities = 32, .preset = MatchPreset::balanced};
+    double apart_deg = 20, rate_hz = 5, settling_s = 3, measured_s = 1;
+    double start_s = 2;  ///< in the stage's loop
+    int prepare_level = 0, render_level = 0;
+    bool with_exact_depth = false;
+    std::vector<TruthRegion> exact_in;  ///< where rigs have the stage's depth, not their matchers'
+    bool knows_set = false;             ///< begins with what a loop of the stage tells of its set
+    bool with_regions = false;          ///< shares of pixels and of squared error, by TruthRegion
+    bool with_times = true;             ///< of the processor
+    std::string
+        pictures;  ///< a folder for the last picture of each view beside its truth; may be empty
+};
+
+/// A Markdown table, a row a synthesiser and set. Needs a current context.
+std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& wanted);
+
+}  // namespace vantage

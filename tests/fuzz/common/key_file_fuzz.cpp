@@ -1,0 +1,13 @@
+#include <cstddef>
+#include <cstdint>
+
+#include "common/wire/curve_keys.h"
+#include "tests/fuzz/seeds/input_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace vantage;
+    const InputFile file(std::span(data, size));
+    expect_result_or_error([&] { load_key_file(file.path()); });
+    expect_result_or_error([&] { load_authorized_hosts(file.path()); });
+    return 0;
+}

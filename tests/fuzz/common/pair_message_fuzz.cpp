@@ -1,0 +1,17 @@
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+
+#include "common/pairing/pair_message.h"
+#include "tests/fuzz/seeds/input_file.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace vantage;
+    const auto bytes = std::as_bytes(std::span(data, size));
+    // What is understood has to survive the way back, or two ends would disagree about it.
+    expect_result_or_error([&] {
+        const PairMessage message = decode_pair_message(bytes);
+        if (decode_pair_message(encode(message)) != message) std::abort();
+    });
+    return 0;
+}
