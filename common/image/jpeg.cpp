@@ -162,7 +162,7 @@ DecodedJpeg decode_jpeg(std::span<const std::byte> bytes, JpegChannels channels)
     const jpeg_decompress_struct& header = picture.header();
     require_picture_size(header.image_width, header.image_height);
     if (header.jpeg_color_space == JCS_CMYK || header.jpeg_color_space == JCS_YCCK)
-        fail("it is a JPEG for printing, in CMYK");
+        fail("it is a JPEG for printing, in CMYK; convert it to RGB");
     const bool is_grey = header.jpeg_color_space == JCS_GRAYSCALE;
     const bool has_alpha = channels == JpegChannels::rgba;
     DecodedJpeg decoded;
