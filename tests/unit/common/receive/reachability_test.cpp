@@ -29,16 +29,17 @@ TEST(Reachability, ReportsNothingForAnOpenPort) {
 }
 
 TEST(Reachability, TriesEveryAddressOfAName) {
-    zmq::context_t context;
-    zmq::socket_t listener(context, zmq::socket_type::router);
     const int port = two_free_ports().first;
     const std::vector<SocketAddress> addresses = resolve_all("localhost", port);
-    listener.set(zmq::sockopt::ipv6, true);
-    // Only the last address of the name is listened on.
-    listener.bind("tcp://" + addresses.back().text());
     const Endpoint endpoint = parse_endpoint(fmt::format("tcp://localhost:{}", port), "endpoint");
-    EXPECT_EQ(reach(endpoint, limit).address, "tcp://" + addresses.back().text());
-    listener.close();
+    {
+        // Only the last address of the name is listened on, until the context is closed.
+        zmq::context_t context;
+        zmq::socket_t listener(context, zmq::socket_type::router);
+        listener.set(zmq::sockopt::ipv6, true);
+        listener.bind("tcp://" + addresses.back().text());
+        EXPECT_EQ(reach(endpoint, limit).address, "tcp://" + addresses.back().text());
+    }
     for (const SocketAddress& address : addresses)
         EXPECT_THAT(reach(endpoint, limit).reason, HasSubstr(address.host()));
 }
