@@ -1,5 +1,8 @@
 #include "common/rectification/rectify_pass.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "common/base/error.h"
 #include "common/rectification/packed_positions.h"
 
@@ -21,13 +24,15 @@ Texture make_target(TextureFormat format, const StereoCalibration& calibration, 
 
 RectifyPass::RectifyPass(const ShaderLibrary& library, const StereoCalibration& calibration,
                          Side side)
-    : calibration_id_(calibration.id),
+    : library_(library),
+      calibration_id_(calibration.id),
       side_(side),
       raw_size_(camera_of(calibration, side).width_px, camera_of(calibration, side).height_px),
       is_identity_(is_identity(calibration, side)),
       packed_(is_identity_
                   ? std::nullopt
                   : packed_positions(make_rectification_map(calibration, side), raw_size_)),
+      is_packed_(packed_.has_value()),
       positions_(make_target(packed_ ? TextureFormat::r32ui : TextureFormat::rg32f, calibration,
                              is_identity_)),
       rectified_(make_target(TextureFormat::rgba8, calibration, is_identity_)),
@@ -39,27 +44,61 @@ RectifyPass::RectifyPass(const ShaderLibrary& library, const StereoCalibration& 
 }
 
 const Texture& RectifyPass::rectify(const Texture& raw) {
-    if (raw.size() != raw_size_)
-        fail(
-            "the calibration {} is for pictures of {}x{}, and the {} camera's are {}x{}; calibrate "
-            "at that size or set the camera to the calibrated one",
-            calibration_id_, raw_size_.width, raw_size_.height,
-            side_ == Side::left ? "left" : "right", raw.width_px(), raw.height_px());
+    require_raw_size(raw.size());
     if (is_identity_) return raw;
     Program& program = pass_.use();
-    program.set("raw", 0);
-    program.set("positions", 1);
     raw.bind(0);
+    program.set("raw", 0);
+    return run(pass_, program);
+}
+
+const Texture& RectifyPass::rectify(const RawPlanes& raw) {
+    require_raw_size(raw.size);
+    if (is_identity_) throw std::logic_error("planes of a rectified camera are not resampled");
+    if (!planes_pass_ || planes_format_ != raw.shader_format) {
+        planes_pass_.emplace(library_, "rectify.frag",
+                             ShaderDefines{{"PACKED", is_packed_ ? "1" : "0"},
+                                           {"PLANES", "1"},
+                                           {"FORMAT", std::to_string(raw.shader_format)}});
+        planes_format_ = raw.shader_format;
+    }
+    constexpr int first_plane_unit = 2;
+    Program& program = planes_pass_->use();
+    raw.bind(first_plane_unit);
+    program.set("raw", first_plane_unit);
+    program.set("chroma", first_plane_unit + 1);
+    program.set("raw_size", Eigen::Vector2i(raw_size_.width, raw_size_.height));
+    program.set("first_column_px", raw.first_column_px);
+    const auto texel_of = [](cv::Size size) {
+        return Eigen::Vector2f(1.0F / static_cast<float>(size.width),
+                               1.0F / static_cast<float>(size.height));
+    };
+    program.set("raw_texel", texel_of(raw.plane_sizes.front()));
+    program.set("chroma_texel", texel_of(raw.plane_sizes.back()));
+    return run(*planes_pass_, program);
+}
+
+void RectifyPass::require_raw_size(cv::Size size) const {
+    if (size == raw_size_) return;
+    fail(
+        "the calibration {} is for pictures of {}x{}, and the {} camera's are {}x{}; calibrate "
+        "at that size or set the camera to the calibrated one",
+        calibration_id_, raw_size_.width, raw_size_.height, side_ == Side::left ? "left" : "right",
+        size.width, size.height);
+}
+
+const Texture& RectifyPass::run(FullscreenPass& pass, Program& program) {
+    program.set("positions", 1);
     positions_.bind(1);
-    pass_.overwrite(target_);
+    pass.overwrite(target_);
     return rectified_;
 }
 
-std::size_t RectifyPass::bytes_moved() const {
+std::size_t RectifyPass::bytes_moved(double raw_bytes_per_pixel) const {
     if (is_identity_) return 0;
     // A good cache reads each raw texel once.
-    const auto raw_bytes = static_cast<std::size_t>(raw_size_.area()) * 4;
-    return raw_bytes + positions_.bytes() + rectified_.bytes();
+    const double raw_bytes = raw_size_.area() * raw_bytes_per_pixel;
+    return static_cast<std::size_t>(raw_bytes) + positions_.bytes() + rectified_.bytes();
 }
 
 std::size_t RectifyPass::gpu_bytes() const { return positions_.bytes() + rectified_.bytes(); }

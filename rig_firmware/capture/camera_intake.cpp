@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-/// The number that shaders/capture/camera_picture.frag has for the format.
+/// The number that shaders/capture/camera_formats.glsl has for the format.
 int shader_format(PixelFormat format) {
     switch (format) {
         case PixelFormat::y10:
@@ -26,9 +26,8 @@ int shader_format(PixelFormat format) {
 }
 
 template <class Planes>
-void bind_planes(const Planes& planes) {
-    int unit = 0;
-    for (const auto& plane : planes) plane.bind(unit++);
+void bind_planes(const Planes& planes, int first_unit) {
+    for (const auto& plane : planes) plane.bind(first_unit++);
 }
 
 /// A view of the plane's bytes; OpenCV wants them writable and nothing writes.
@@ -46,8 +45,8 @@ CameraIntake::CameraIntake(const EglContext& context, const ShaderLibrary& libra
       colour_(TextureFormat::rgba8, size.width, size.height),
       target_({&colour_}) {}
 
-void CameraIntake::prepare(const LentPicture& specimen, const std::string& why_not) {
-    pass_for(specimen.raw.format);
+void CameraIntake::prepare(const LentPicture& specimen, const std::string& why_not,
+                           const std::function<void(const RawPlanes&)>& warm_up) {
     imports_ = false;
     if (!why_not.empty()) {
         reason_ = why_not;
@@ -63,7 +62,10 @@ void CameraIntake::prepare(const LentPicture& specimen, const std::string& why_n
         }
     }
     // Drivers finish their programs at the first drawing.
-    (void)bring(specimen);
+    if (warm_up)
+        warm_up(planes(specimen));
+    else
+        (void)bring(specimen);
     counts_ = {};
 }
 
@@ -73,14 +75,25 @@ const Texture& CameraIntake::bring(const ColourImage& picture) {
 }
 
 const Texture& CameraIntake::bring(const LentPicture& picture) {
+    const RawPlanes raw = planes(picture);
+    FullscreenPass& pass = pass_for(picture.raw.format);
+    Program& program = pass.use();
+    raw.bind(0);
+    program.set("plane", 0);
+    program.set("chroma", 1);
+    program.set("first_column_px", raw.first_column_px);
+    pass.overwrite(target_);
+    return colour_;
+}
+
+RawPlanes CameraIntake::planes(const LentPicture& picture) {
     if (picture.view.size() != colour_.size())
         fail("a camera delivers a picture of {}x{}, and {}x{} was agreed on", picture.view.width,
              picture.view.height, colour_.width_px(), colour_.height_px());
-    FullscreenPass& pass = pass_for(picture.raw.format);
-    const std::vector<DmaBufTexture>* planes = nullptr;
+    const std::vector<DmaBufTexture>* imports = nullptr;
     if (imports_ && picture.dma_buf >= 0) {
         try {
-            planes = &imported(picture);
+            imports = &imported(picture);
         } catch (const Error& error) {
             // One that was plugged in anew may have another driver.
             log_warning("{}; pictures are copied from now on", error.what());
@@ -88,20 +101,26 @@ const Texture& CameraIntake::bring(const LentPicture& picture) {
             reason_ = error.what();
         }
     }
-    if (planes) {
-        bind_planes(*planes);
+    if (imports) {
         ++counts_.imported;
     } else {
         copy(picture);
-        bind_planes(copies_);
         ++counts_.copied;
     }
-    Program& program = pass.use();
-    program.set("plane", 0);
-    program.set("chroma", 1);
-    program.set("first_column_px", picture.view.x);
-    pass.overwrite(target_);
-    return colour_;
+    const auto bind = [this, imports](int first_unit) {
+        if (imports)
+            bind_planes(*imports, first_unit);
+        else
+            bind_planes(copies_, first_unit);
+    };
+    std::vector<cv::Size> plane_sizes;
+    for (const PicturePlane& plane : planes_of(picture.raw))
+        plane_sizes.emplace_back(plane.width_px, plane.height_px);
+    return {.shader_format = shader_format(picture.raw.format),
+            .size = colour_.size(),
+            .first_column_px = picture.view.x,
+            .plane_sizes = std::move(plane_sizes),
+            .bind = bind};
 }
 
 const std::vector<DmaBufTexture>& CameraIntake::imported(const LentPicture& picture) {

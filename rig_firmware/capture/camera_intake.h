@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "common/gl/objects/dma_buf_texture.h"
 #include "common/gl/objects/framebuffer.h"
 #include "common/gl/objects/texture.h"
+#include "common/rectification/raw_planes.h"
 #include "rig_firmware/capture/lent_picture.h"
 
 namespace vantage {
@@ -30,7 +32,9 @@ class CameraIntake {
 
     /// Imports the buffer on trial and builds the programs for its format. From then on pictures
     /// are imported if that worked; until then they are copied. `why_not`: not empty to only build.
-    void prepare(const LentPicture& specimen, const std::string& why_not = {});
+    /// `warm_up`: what will be done with planes(), where bring() will not be called.
+    void prepare(const LentPicture& specimen, const std::string& why_not = {},
+                 const std::function<void(const RawPlanes&)>& warm_up = {});
 
     bool imports() const { return imports_; }
     /// Why pictures are copied; empty if they are not.
@@ -40,6 +44,8 @@ class CameraIntake {
     /// through with it. Throws Error if it is not of this intake's size.
     const Texture& bring(const ColourImage& picture);
     const Texture& bring(const LentPicture& picture);
+    /// The same without the conversion, for RectifyPass, which makes it on the way.
+    RawPlanes planes(const LentPicture& picture);
 
     const Counts& counts() const { return counts_; }
 

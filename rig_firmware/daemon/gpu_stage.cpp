@@ -45,6 +45,15 @@ MatchSettings match_settings(const RigConfig& config, const RectifiedStereo& geo
             .of_stream = config.match.steady};
 }
 
+void prepare_intake(CameraIntake& intake, RectifyPass& rectify, const LentPicture& specimen,
+                    const std::string& why_not) {
+    if (rectify.passes_through())
+        intake.prepare(specimen, why_not);
+    else
+        intake.prepare(specimen, why_not,
+                       [&](const RawPlanes& raw) { (void)rectify.rectify(raw); });
+}
+
 ShaderLibrary observed_library(ProgramObserver observer) {
     ShaderLibrary library;
     library.observe_programs(std::move(observer));
@@ -141,8 +150,8 @@ void GpuStage::prepare_intakes(const std::string& buffers, std::span<const LentP
     else if (info_.is_software)
         why_not = "OpenGL ES is drawn by the processor, which reads no other driver's buffers";
     if (specimens.size() == 2) {
-        left_intake_.prepare(specimens[0], why_not);
-        right_intake_.prepare(specimens[1], why_not);
+        prepare_intake(left_intake_, rectify_left_, specimens[0], why_not);
+        prepare_intake(right_intake_, rectify_right_, specimens[1], why_not);
         reason = left_intake_.imports() ? right_intake_.reason() : left_intake_.reason();
         intake_report_ = reason.empty()
                              ? "the GPU reads the cameras' buffers (dma-buf): no picture is copied"
@@ -197,14 +206,15 @@ RigFrame GpuStage::process(StereoFrame frame) {
 
 void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     rectify_timer_.begin();
-    const auto bring = [](CameraIntake& intake, const ColourImage& picture,
-                          const std::optional<LentPicture>& lent) -> const Texture& {
-        return lent ? intake.bring(*lent) : intake.bring(picture);
+    const auto rectified = [](RectifyPass& pass, CameraIntake& intake, const ColourImage& picture,
+                              const std::optional<LentPicture>& lent) -> const Texture& {
+        if (!lent) return pass.rectify(intake.bring(picture));
+        return pass.passes_through() ? pass.rectify(intake.bring(*lent))
+                                     : pass.rectify(intake.planes(*lent));
     };
-    const Texture& left = rectify_left_.rectify(bring(left_intake_, frame.left, frame.lent_left));
+    const Texture& left = rectified(rectify_left_, left_intake_, frame.left, frame.lent_left);
     const Texture* right = nullptr;
-    if (matcher_)
-        right = &rectify_right_.rectify(bring(right_intake_, frame.right, frame.lent_right));
+    if (matcher_) right = &rectified(rectify_right_, right_intake_, frame.right, frame.lent_right);
     rectify_timer_.end();
     const bool is_right_due = right && sends_right_ &&
                               (!right_sent_ || frame.exposure < *right_sent_ ||

@@ -4,9 +4,10 @@
 
 namespace vantage {
 
-EngineMatcher::EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings)
+EngineMatcher::EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings,
+                             DisparityForm form)
     : luma_(library, layout_of(settings), picture_kind(settings)),
-      result_(library, layout_of(settings), settings.confidence) {}
+      result_(library, layout_of(settings), settings.confidence, form) {}
 
 const Texture& EngineMatcher::match(const Texture& left, const Texture& right) {
     profiler_.begin_frame();

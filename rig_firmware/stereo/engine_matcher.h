@@ -33,9 +33,11 @@ class EngineMatcher : public Matcher {
     }
 
   protected:
-    EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings);
+    /// form: of the buffer that search() returns.
+    EngineMatcher(const ShaderLibrary& library, const MatchSettings& settings,
+                  DisparityForm form = DisparityForm::words);
 
-    /// From the pictures' lumas to a disparity for each of their pixels, in LeftRightPass's form.
+    /// From the pictures' lumas to a disparity for each of their pixels.
     virtual const Buffer& search(PassProfiler& profiler, const LumaPass& luma) = 0;
     /// Matcher::forget() for the search.
     virtual void forget_search() = 0;

@@ -1,9 +1,5 @@
-// A camera's buffer as RGBA. YUV is BT.601 of limited range in the fixed point of 20 bits that
-// OpenCV has, so that a picture that is converted here and one that is converted on the processor
-// are the same to the bit.
-#ifndef FORMAT
-#define FORMAT 0 // 0: grey; 1: Y10; 2: Y16; 3: YUYV; 4: NV12
-#endif
+// Converts a camera's buffer to RGBA.
+#include "camera_formats.glsl"
 uniform sampler2D plane;     // grey: r8; Y10, Y16: rg8, low byte first; YUYV: rgba8; NV12: r8, luma
 uniform sampler2D chroma;    // NV12: rg8 of half the size
 uniform int first_column_px; // of the part that is wanted
@@ -13,15 +9,7 @@ ivec4 texel(sampler2D from, ivec2 at) { return ivec4(texelFetch(from, at, 0) * 2
 
 vec4 grey(int value) { return vec4(vec3(float(min(value, 255)) / 255.0), 1.0); }
 
-vec4 from_yuv(int y, int u, int v) {
-    const int shift = 20, half_unit = 1 << 19;
-    int luma = max(y - 16, 0) * 1220542;
-    u -= 128;
-    v -= 128;
-    ivec3 rgb = ivec3(luma + half_unit + 1673527 * v,
-                      luma + half_unit - 852492 * v - 409993 * u, luma + half_unit + 2116026 * u);
-    return vec4(vec3(clamp(rgb >> shift, 0, 255)) / 255.0, 1.0);
-}
+vec4 from_yuv(int y, int u, int v) { return vec4(rgb_of_yuv(y, u, v) / 255.0, 1.0); }
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy) + ivec2(first_column_px, 0);

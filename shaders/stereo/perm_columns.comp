@@ -21,7 +21,7 @@ layout(std430, binding = 1) readonly buffer Volume { uvec4 volume[]; };
 layout(std430, binding = 2) buffer Marks { uvec4 marks[]; };  // the sums from above a group of rows
 #if KEEP
 layout(std430, binding = 3) writeonly buffer Costs { uvec4 costs[]; };  // a byte each, slab after slab
-layout(std430, binding = 4) readonly buffer Scale { uint scale[]; };
+layout(std430, binding = 4) readonly buffer Scale { uint scale[]; };  // 16 bits each, two pixels a word
 uniform int plane;  // pixels of a slab of costs
 #else
 layout(std430, binding = 3) buffer Winners { uvec2 winners[]; };  // see winner_takes_all.glsl
@@ -35,7 +35,7 @@ const int group_rows = 4;
 #if KEEP
 // Sums shifted to 8 bits times a factor of the pixel, see perm_weight.comp, in pairs; then four bytes a word.
 uvec2 codes_of(uvec4 sums, uint scale) {
-    uvec4 codes = ((((sums >> (scale >> 16)) & low_bytes) * (scale & 0xffffu)) >> 8) & low_bytes;
+    uvec4 codes = ((((sums >> (scale >> 13)) & low_bytes) * (scale & 0x1fffu)) >> 8) & low_bytes;
     codes = (codes | (codes >> 8)) & 0xffffu;
     return codes.xz | (codes.yw << 16);
 }
@@ -67,7 +67,7 @@ uvec2 codes_of(uvec4 sums, uint scale) {
 void leave(int y, int x, int column, uvec4 sum_a, uvec4 sum_b) {
     int at = column + y * block_px;
 #if KEEP
-    uint by = scale[y * stride + x];
+    uint by = (scale[(y * stride + x) >> 1] >> (16 * (x & 1))) & 0xffffu;
     costs[(first_disparity >> 4) * plane + at] = whole(uvec4(codes_of(sum_a, by), codes_of(sum_b, by)));
 #else
     no_winner_yet();

@@ -1,5 +1,7 @@
 // The costs that perm_columns.comp leaves with KEEP, bit for bit, for GPUs with few registers per lane (Raspberry
 // Pi's V3D): an invocation walks a column with half a slab (8 disparities), and both halves lie in neighbouring lanes.
+// Marks are kept for groups of eight rows. On the way up, the lower four rows of a group come first, for which the upper
+// four are walked once more.
 #include "perm_common.glsl"
 
 layout(local_size_x = LANES) in;
@@ -7,24 +9,24 @@ layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; 
 layout(std430, binding = 1) readonly buffer Volume { uvec2 volume[]; };
 layout(std430, binding = 2) buffer Marks { uvec4 marks[]; };  // the sums from above a group of rows
 layout(std430, binding = 3) writeonly buffer Costs { uvec2 costs[]; };  // a byte each, slab after slab
-layout(std430, binding = 4) readonly buffer Scale { uint scale[]; };
+layout(std430, binding = 4) readonly buffer Scale { uint scale[]; };  // 16 bits each, two pixels a word
 uniform int plane;  // pixels of a slab of costs
 uniform ivec2 size;
 uniform int stride;
 uniform int first_disparity;
 
-const int group_rows = 4;
+const int group_rows = 8;
 
 // Sums shifted to 8 bits times a factor of the pixel, see perm_weight.comp, in pairs; then four bytes a word.
 uvec2 codes_of(uvec4 sums, uint scale) {
-    uvec4 codes = ((((sums >> (scale >> 16)) & low_bytes) * (scale & 0xffffu)) >> 8) & low_bytes;
+    uvec4 codes = ((((sums >> (scale >> 13)) & low_bytes) * (scale & 0x1fffu)) >> 8) & low_bytes;
     codes = (codes | (codes >> 8)) & 0xffffu;
     return codes.xz | (codes.yw << 16);
 }
 
 // Row k of a group from the sums that come down to it. What lies below the picture passes nothing on.
 #define SUMS_AT(k) volume[(column + min(first + (k), size.y - 1) * block_px) * 2 + part]
-#define MU(k) ((four >> (8 * (k))) & 255u)
+#define MU(k) ((four >> (8 * (k))) & 255u)  // of the four rows from `first` on
 #define DOWN(k) a = pairs_of(SUMS_AT(k)) + permeate(a, MU(k));
 #define DOWN_AGAIN(k, own, sum) \
     own = SUMS_AT(k);           \
@@ -32,27 +34,37 @@ uvec2 codes_of(uvec4 sums, uint scale) {
 #define UP(k, own, sum)                                                                               \
     if (first + (k) < size.y)                                                                         \
         costs[((first_disparity >> 4) * plane + column + (first + (k)) * block_px) * 2 + part] =      \
-            codes_of(sum + up, scale[(first + (k)) * stride + x]);                                    \
+            codes_of(sum + up, (scale[((first + (k)) * stride + x) >> 1] >> scale_bit) & 0xffffu);                                    \
     up = permeate(up + pairs_of(own), MU(k));
 
 void main() {
     int x = int(gl_GlobalInvocationID.x >> 1), part = int(gl_GlobalInvocationID.x & 1u);
     if (x >= size.x) return;
+    int scale_bit = 16 * (x & 1);  // stride is even
     int column = block_at(x, 0, size.y), groups = (size.y + group_rows - 1) / group_rows;
 
     uvec4 a = uvec4(0u);
     for (int group = 0; group < groups; ++group) {
         int first = group * group_rows;
-        uint four = permeability[group * stride + x];
+        uint four = permeability[(first >> 2) * stride + x];
         marks[block_at(x, group, groups) * 2 + part] = a;
+        DOWN(0) DOWN(1) DOWN(2) DOWN(3)
+        first += 4;
+        four = first < size.y ? permeability[(first >> 2) * stride + x] : 0u;
         DOWN(0) DOWN(1) DOWN(2) DOWN(3)
     }
 
     uvec4 up = uvec4(0u);
-    for (int group = groups - 1; group >= 0; --group) {
-        int first = group * group_rows;
-        uint four = permeability[group * stride + x];
+    int fours = (size.y + 3) >> 2;
+    for (int k = fours - 1; k >= 0; --k) {
+        int group = k >> 1, first = group * group_rows;
+        uint four = permeability[(first >> 2) * stride + x];
         a = marks[block_at(x, group, groups) * 2 + part];
+        if ((k & 1) != 0) {
+            DOWN(0) DOWN(1) DOWN(2) DOWN(3)
+            first += 4;
+            four = permeability[k * stride + x];
+        }
         uvec2 own0, own1, own2, own3;
         uvec4 sum0, sum1, sum2, sum3;
         DOWN_AGAIN(0, own0, sum0) DOWN_AGAIN(1, own1, sum1) DOWN_AGAIN(2, own2, sum2) DOWN_AGAIN(3, own3, sum3)

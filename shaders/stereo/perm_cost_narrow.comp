@@ -1,5 +1,6 @@
 // Matching cost of every pixel and disparity, a byte each in the order of perm_common.glsl, for GPUs with few registers
 // per lane (Raspberry Pi's V3D). A lane computes four pixels of a row and half a slab (8 disparities).
+#define LANE_MAPPING 1  // LANES_DISPARITIES
 #include "perm_common.glsl"
 
 layout(local_size_x = LANES) in;

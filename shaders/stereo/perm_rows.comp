@@ -20,6 +20,10 @@
 #define PARTS 2
 #endif
 
+// 1: marks are kept at every eighth column, and the four pixels before a mark's second four are walked once more, which
+// costs less than the memory traffic where costs are given.
+#define SPARSE_MARKS (GIVEN && PARTS == 1)
+
 layout(local_size_x = LANES) in;
 #if GIVEN
 layout(std430, binding = 0) readonly buffer Costs { SUMS costs[]; };
@@ -122,7 +126,11 @@ void main() {
 #endif
         LEFT_WORDS
         uvec4 m = permeabilities(row + x);
+#if SPARSE_MARKS
+        if ((x & 4) == 0) marks[MARK_AT(x)] = a;
+#else
         marks[MARK_AT(x)] = a;
+#endif
 #if PARTS == 2
         marks[MARK_AT(x) + 1] = b;
 #endif
@@ -132,10 +140,22 @@ void main() {
     // The words slide the other way.
     back_a = back_b = uvec4(0u);
     for (int x = last; x >= 0; x -= 4) {
+#if SPARSE_MARKS
+        a = marks[MARK_AT(x & ~4)];
+        if ((x & 4) != 0) {
+            x -= 4;
+            LEFT_WORDS
+            uvec4 m = permeabilities(row + x);
+            FORTH(0, l0, m.x) FORTH(1, l1, m.y) FORTH(2, l2, m.z) FORTH(3, l3, m.w)
+            x += 4;
+        }
+#endif
         LEFT_WORDS
         uvec4 m = permeabilities(row + x);
         int at = SUMS_AT(x);
+#if !SPARSE_MARKS
         a = marks[MARK_AT(x)];
+#endif
 #if PARTS == 2
         b = marks[MARK_AT(x) + 1];
 #endif

@@ -1,7 +1,7 @@
 // The sum that the largest cost everywhere would have: what a pixel's aggregated costs must be divided by before they
 // are compared with another pixel's. ALONG 0 walks rows and fills the buffer, ALONG 1 then walks columns. With MOST, ALONG 1
-// leaves in place of a weight how sums become costs of at most MOST, which is where every cost is the largest: shift << 16 | factor,
-// cost = (sum >> shift) * factor >> 8.
+// leaves in place of a weight how sums become costs of at most MOST, which is where every cost is the largest: shift << 13 | factor,
+// cost = (sum >> shift) * factor >> 8; and the buffer has 16 bits per pixel.
 #include "stereo_common.glsl"
 
 #ifndef MOST
@@ -16,9 +16,22 @@ const uint most_cost = 31u;
 uniform ivec2 size;
 uniform int stride;
 
+// Four pixels' weights.
+#if MOST
+layout(std430, binding = 1) buffer Weight { uvec2 weight[]; };
+uvec4 weights_at(int at) {
+    uvec2 two = weight[at];
+    return uvec4(two & 0xffffu, two >> 16).xzyw;
+}
+void leave(int at, uvec4 weights) { weight[at] = weights.xz | (weights.yw << 16); }
+#else
+layout(std430, binding = 1) buffer Weight { uvec4 weight[]; };
+uvec4 weights_at(int at) { return weight[at]; }
+void leave(int at, uvec4 weights) { weight[at] = weights; }
+#endif
+
 #if ALONG == 0
 layout(std430, binding = 0) readonly buffer Permeability { uint permeability[]; };  // a byte each
-layout(std430, binding = 1) buffer Weight { uvec4 weight[]; };
 
 uvec4 permeabilities(int at) {
     uint four = permeability[at];
@@ -36,7 +49,7 @@ void main() {
         a.y = most_cost + ((a.x * mu.y) >> 4);
         a.z = most_cost + ((a.y * mu.z) >> 4);
         a.w = most_cost + ((a.z * mu.w) >> 4);
-        weight[at] = a;
+        leave(at, a);
     }
     uint back = 0u, mu_after = 0u;  // nothing passes from behind the picture
     for (int at = last; at >= first; --at) {
@@ -45,14 +58,13 @@ void main() {
         b.z = ((b.w + most_cost) * mu.w) >> 4;
         b.y = ((b.z + most_cost) * mu.z) >> 4;
         b.x = ((b.y + most_cost) * mu.y) >> 4;
-        weight[at] = (weight[at] + b) >> 3;
+        leave(at, (weights_at(at) + b) >> 3);
         back = b.x + most_cost;
         mu_after = mu.x;
     }
 }
 #else
 layout(std430, binding = 0) readonly buffer Permeability { uvec4 permeability[]; };  // a byte each of four rows
-layout(std430, binding = 1) buffer Weight { uvec4 weight[]; };
 
 // Four columns an invocation.
 void main() {
@@ -62,23 +74,23 @@ void main() {
     uvec4 four = uvec4(0u);
     for (int y = 0, at = x; y < size.y; ++y, at += step) {
         if ((y & 3) == 0) four = permeability[(y >> 2) * step + x];
-        a = weight[at] + ((a * (four & 255u)) >> 4);
+        a = weights_at(at) + ((a * (four & 255u)) >> 4);
         four >>= 8;
-        weight[at] = a;
+        leave(at, a);
     }
     uvec4 back = uvec4(0u);
     for (int y = size.y - 1; y >= 0; --y) {
         int at = y * step + x;
         if (y == size.y - 1 || (y & 3) == 3) four = permeability[(y >> 2) * step + x];
-        uvec4 mu = (four >> (8 * (y & 3))) & 255u, above = weight[max(at - step, 0)];
+        uvec4 mu = (four >> (8 * (y & 3))) & 255u, above = weights_at(max(at - step, 0));
 #if MOST
         ivec4 sum = ivec4(a + back);
         ivec4 shift = ivec4(greaterThanEqual(sum, ivec4(256))) + ivec4(greaterThanEqual(sum, ivec4(512))) +
                       ivec4(greaterThanEqual(sum, ivec4(1024))) + ivec4(greaterThanEqual(sum, ivec4(2048)));
         vec4 factor = float(MOST) * 256.0 * vec4(ivec4(1) << shift) / vec4(max(sum, ivec4(1)));
-        weight[at] = uvec4(shift << 16) | uvec4(ivec4(factor));
+        leave(at, uvec4(shift << 13) | uvec4(ivec4(factor)));
 #else
-        weight[at] = a + back;
+        leave(at, a + back);
 #endif
         back = ((back + a - ((above * mu) >> 4)) * mu) >> 4;
         a = above;

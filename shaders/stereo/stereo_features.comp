@@ -9,6 +9,9 @@
 #ifndef ROWS
 #define ROWS 8
 #endif
+#ifndef ROW_STEP
+#define ROW_STEP 1  // 2: makes the words of even rows only; ROWS is even
+#endif
 
 // 1: makes the words anew if votes say that the picture lies lower or higher than it should, as if it did not.
 #ifndef SHIFTED
@@ -80,14 +83,23 @@ void main() {
     if (shift == 0) return;
 #endif
     if (column + 2 >= row_words) {
-        for (int y = first_row; y < min(first_row + ROWS, size.y); ++y)
+        for (int y = first_row; y < min(first_row + ROWS, size.y); y += ROW_STEP)
             features[y * (stride / 4) + column] = uvec4(0u);
         return;
     }
+#if ROW_STEP == 1
     uvec3 a, b = row_at(first_row - 2, column), c = row_at(first_row - 1, column), d = row_at(first_row, column);
     uvec3 e = row_at(first_row + 1, column);
-    for (int y = first_row; y < min(first_row + ROWS, size.y); ++y) {
+#else
+    uvec3 a, b, c = row_at(first_row - 2, column), d = row_at(first_row - 1, column), e = row_at(first_row, column);
+#endif
+    for (int y = first_row; y < min(first_row + ROWS, size.y); y += ROW_STEP) {
+#if ROW_STEP == 1
         a = b, b = c, c = d, d = e;
+#else
+        a = c, b = d, c = e;
+        d = row_at(y + 1, column);
+#endif
         e = row_at(y + 2, column);
         uint bright = ~c.y, low = c.y & ~high;
         uint p = 0u, q = 0u, r = 0u;

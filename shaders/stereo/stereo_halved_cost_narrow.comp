@@ -3,6 +3,7 @@
 // neighbouring lanes read neighbouring words. Right-hand words arrive four at a time, and only the cost of the
 // previous odd column is kept. With BOTH, the upper and the lower row of each 2x2 run through the same loop body,
 // which keeps the program small enough for the instruction cache.
+#define LANE_MAPPING 1  // LANES_DISPARITIES
 #include "perm_common.glsl"
 
 #ifndef BOTH
@@ -27,18 +28,14 @@ uvec4 right_at(int row, int column) {
     return column < 0 ? four.xxxx : four;
 }
 
-// Where perm_common.glsl keeps disparity j of 8: the word and the byte in it.
-#define WORD(j) (((j) & 3) / 2)
-#define BYTE(j) ((((j) & 4) != 0 ? 1 : 0) + ((j) & 1) * 2)
-
-// Disparity j of both pixels. The words at twice the disparity and one beyond it belong to j; the cost of the word
-// one short of it comes from the step before.
-#define STEP(j, even_a, odd_a, even_b, odd_b)                                                    \
-    {                                                                                            \
-        uint next_a = cost_of(a, odd_a), next_b = cost_of(b, odd_b);                             \
-        sum[WORD(j)] |= min(min(previous_a, cost_of(a, even_a)), next_a) << (8 * BYTE(j));       \
-        sum[2 + WORD(j)] |= min(min(previous_b, cost_of(b, even_b)), next_b) << (8 * BYTE(j));   \
-        previous_a = next_a, previous_b = next_b;                                                \
+// Disparity j of four for both pixels; the byte that it goes to belongs to perm_common.glsl. The words at twice the
+// disparity and one beyond it belong to j; the cost of the word one short of it comes from the step before.
+#define STEP(j, byte_at, even_a, odd_a, even_b, odd_b)                                                                \
+    {                                                                                                        \
+        uint next_a = cost_of(a, odd_a), next_b = cost_of(b, odd_b);                                         \
+        sum[(j) / 2] |= min(min(previous_a, cost_of(a, even_a)), next_a) << (byte_at + 16 * ((j) & 1));      \
+        sum[2 + (j) / 2] |= min(min(previous_b, cost_of(b, even_b)), next_b) << (byte_at + 16 * ((j) & 1));  \
+        previous_a = next_a, previous_b = next_b;                                                            \
     }
 
 uvec4 block;  // the last one that was read of the right-hand row
@@ -54,23 +51,24 @@ uvec4 next_four(int row, int column, bool is_upper) {
 #endif
 }
 
-// Costs of left-hand word a against columns from `column` to the left, and of b two columns further right.
+// Costs of left-hand word a against columns from `column` to the left, and of b two columns further right. Disparities 0
+// to 3, then 4 to 7.
 uvec4 costs_of(int row, int column, uint a, uint b, uint before_first, bool is_upper) {
     block = right_at(row, column + 4);
     uvec4 sum = uvec4(0u), w = next_four(row, column, is_upper), v = next_four(row, column - 4, is_upper);
     uint previous_a = max(cost_of(a, v.z), before_first), previous_b = max(cost_of(b, w.x), before_first);
-    STEP(0, v.y, v.x, v.w, v.z)
+    STEP(0, 0, v.y, v.x, v.w, v.z)
     w = v, v = next_four(row, column - 8, is_upper);
-    STEP(1, v.w, v.z, w.y, w.x)
-    STEP(2, v.y, v.x, v.w, v.z)
+    STEP(1, 0, v.w, v.z, w.y, w.x)
+    STEP(2, 0, v.y, v.x, v.w, v.z)
     w = v, v = next_four(row, column - 12, is_upper);
-    STEP(3, v.w, v.z, w.y, w.x)
-    STEP(4, v.y, v.x, v.w, v.z)
+    STEP(3, 0, v.w, v.z, w.y, w.x)
+    STEP(0, 8, v.y, v.x, v.w, v.z)
     w = v, v = next_four(row, column - 16, is_upper);
-    STEP(5, v.w, v.z, w.y, w.x)
-    STEP(6, v.y, v.x, v.w, v.z)
+    STEP(1, 8, v.w, v.z, w.y, w.x)
+    STEP(2, 8, v.y, v.x, v.w, v.z)
     w = v, v = next_four(row, column - 20, is_upper);
-    STEP(7, v.w, v.z, w.y, w.x)
+    STEP(3, 8, v.w, v.z, w.y, w.x)
     return sum;
 }
 

@@ -12,32 +12,40 @@
 #endif
 
 layout(local_size_x = PICTURE_LANES) in;
-layout(std430, binding = 0) writeonly buffer Luma { uint luma[]; };
+layout(std430, binding = 0) buffer Luma { uint luma[]; };
 uniform highp sampler2D picture;
 uniform ivec2 size;
 uniform int row_words;
 
 uvec3 rgb_at(int x, int y) {
-    return uvec3(texelFetch(picture, ivec2(clamp(x, 0, size.x - 1), y), 0).rgb * 255.0 + 0.5);
+    return uvec3(ivec3(roundEven(texelFetch(picture, ivec2(clamp(x, 0, size.x - 1), y), 0).rgb * 255.0)));
 }
 #if OF_STREAM
-layout(std430, binding = 1) buffer State { uvec4 state[]; };  // a pixel: luma in 1/64 | colour << 14 | frames << 28
+// 16 bits a pixel: how far the means of luma and colour in 1/64 lie above the levels that were written, plus 32, in six
+// bits each, and the number of frames above them.
+layout(std430, binding = 1) buffer State { uvec2 state[]; };
 layout(std430, binding = 2) readonly buffer Exposure { int gain_4096; };  // since the last picture
 uniform int has_state;
 
+ivec4 levels_of(uint word) { return ivec4(uvec4(word, word >> 8, word >> 16, word >> 24) & 255u); }
+
 // Puts means in the place of four pixels' values.
-void average(int word, inout ivec4 luma_64, inout ivec4 colour_64) {
+void average(int word, int colour_word, inout ivec4 luma_64, inout ivec4 colour_64) {
     const int white = 255 * 64, grey = 128 * 64;
-    ivec4 before = ivec4(state[word]), frames = (before >> 28) & 15;
-    ivec4 luma_before = min(((before & 0x3fff) * gain_4096 + 2048) >> 12, ivec4(white));
-    ivec4 colour_before = ((((before >> 14) & 0x3fff) - grey) * gain_4096 + 2048 >> 12) + grey;
+    uvec2 packed_state = state[word];
+    ivec4 before = ivec4(uvec4(packed_state & 0xffffu, packed_state >> 16).xzyw), frames = before >> 12;
+    ivec4 luma_before = (levels_of(luma[word]) << 6) + (before & 63) - 32;
+    ivec4 colour_before = (levels_of(luma[colour_word]) << 6) + ((before >> 6) & 63) - 32;
+    luma_before = min((luma_before * gain_4096 + 2048) >> 12, ivec4(white));
+    colour_before = ((colour_before - grey) * gain_4096 + 2048 >> 12) + grey;
     ivec4 to_luma = luma_64 - luma_before, to_colour = colour_64 - clamp(colour_before, ivec4(0), ivec4(white));
     ivec4 still = ivec4(lessThanEqual(max(abs(to_luma), abs(to_colour)), ivec4(MOST_NOISE * 64))) * has_state;
     ivec4 part = (frames + 2) >> 1, half_of_it = (ivec4(1) << part) >> 1;
     luma_64 += still * (((to_luma + half_of_it) >> part) - to_luma);
     colour_64 += still * (((to_colour + half_of_it) >> part) - to_colour);
     frames = min(still * frames + 1, ivec4(4));
-    state[word] = uvec4(luma_64 | (colour_64 << 14) | (frames << 28));
+    uvec4 after = uvec4(((luma_64 + 32) & 63) | (((colour_64 + 32) & 63) << 6) | (frames << 12));
+    state[word] = after.xz | (after.yw << 16);
 }
 uint word_of(ivec4 values_64) {
     uvec4 v = uvec4(values_64 + 32) >> 6;
@@ -56,14 +64,15 @@ void main() {
 #if OF_STREAM
     ivec4 luma_64 = ivec4(luma_of(a), luma_of(b), luma_of(c), luma_of(d)) << 6;
     ivec4 colour_64 = ivec4(colour_of(a), colour_of(b), colour_of(c), colour_of(d)) << 6;
-    average(at.y * row_words + at.x, luma_64, colour_64);
+    int word = at.y * row_words + at.x;
+    average(word, word + size.y * row_words, luma_64, colour_64);
     uint lumas = word_of(luma_64), colours = word_of(colour_64);
 #else
+    int word = at.y * row_words + at.x;
     uint lumas = luma_of(a) | (luma_of(b) << 8) | (luma_of(c) << 16) | (luma_of(d) << 24);
     uint colours = colour_of(a) | (colour_of(b) << 8) | (colour_of(c) << 16) | (colour_of(d) << 24);
 #endif
     // As whole() does, but of words that may be ~0; no row is without words.
-    int word = at.y * row_words + at.x;
     luma[word] = max(lumas, uint(row_words == 0));
     luma[size.y * row_words + word] = max(colours, uint(row_words == 0));
 }

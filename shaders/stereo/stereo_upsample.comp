@@ -3,11 +3,21 @@
 // move to where they are. One invocation four coarse pixels, 8x2 results.
 #include "stereo_common.glsl"
 
+#ifndef CONFIDENCE
+#define CONFIDENCE 1  // 0: results are disparities of 16 bits, without confidence
+#endif
+
 layout(local_size_x = PICTURE_LANES) in;
 layout(std430, binding = 0) readonly buffer CoarseDisparity { uvec4 coarse_disparity[]; };
 layout(std430, binding = 1) readonly buffer CoarseLuma { uint coarse_luma[]; };
 layout(std430, binding = 2) readonly buffer FineLuma { uint fine_luma[]; };
+#if CONFIDENCE
 layout(std430, binding = 3) writeonly buffer FineDisparity { uvec4 fine_disparity[]; };
+void leave(int at, uvec4 words) { fine_disparity[at] = words; }
+#else
+layout(std430, binding = 3) writeonly buffer FineDisparity { uvec2 fine_disparity[]; };
+void leave(int at, uvec4 words) { fine_disparity[at] = whole(words.xz | (words.yw << 16)); }
+#endif
 uniform ivec2 coarse_size;
 uniform int coarse_stride;
 uniform int coarse_row_words;
@@ -39,7 +49,11 @@ uint chosen(Cross c, int luma, int i, int j) {
     TRY(c.below, c.luma_below, below_far)
     TRY(c.left, c.luma_left, left_far)
     TRY(c.right, c.luma_right, right_far)
+#if CONFIDENCE
     return (best & 0xffff0000u) | ((best & 0xffffu) << 1);
+#else
+    return (best & 0x7fffu) << 1;
+#endif
 }
 
 int value(uint word) { return int(word & 0xffffu); }
@@ -48,7 +62,11 @@ bool is_near(uint here, uint there) {
 }
 // The plane at a quarter of a pixel to the sides of `beside` and `beyond`.
 uint on_plane(uint here, uint beside, uint beyond) {
-    return (here & 0xffff0000u) | uint((2 * value(here) + value(beside) + value(beyond) + 1) >> 1);
+    uint disparity = uint((2 * value(here) + value(beside) + value(beyond) + 1) >> 1);
+#if CONFIDENCE
+    disparity |= here & 0xffff0000u;
+#endif
+    return disparity;
 }
 
 // Two pixels of a row.
@@ -99,9 +117,9 @@ void main() {
         int fine_word = fine_y * fine_row_words + (fine_x >> 2) + 1, row = fine_y * fine_stride;
         int at = (row + fine_x) >> 2;
         uvec4 luma = bytes_of_word(fine_luma[fine_word]);
-        fine_disparity[at] = uvec4(two(a, a_flat, luma.xy, j), two(b, b_flat, luma.zw, j));
+        leave(at, uvec4(two(a, a_flat, luma.xy, j), two(b, b_flat, luma.zw, j)));
         if (fine_x + 4 >= fine_stride) continue;
         luma = bytes_of_word(fine_luma[fine_word + 1]);
-        fine_disparity[at + 1] = uvec4(two(c, c_flat, luma.xy, j), two(d, d_flat, luma.zw, j));
+        leave(at + 1, uvec4(two(c, c_flat, luma.xy, j), two(d, d_flat, luma.zw, j)));
     }
 }

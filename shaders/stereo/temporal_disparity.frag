@@ -31,14 +31,11 @@ layout(location = 1) out uint next_state;
 #endif
 
 int luma_at(ivec2 at) {
-    ivec4 c = ivec4(texelFetch(picture, at, 0) * 255.0 + 0.5);
+    ivec3 c = ivec3(roundEven(texelFetch(picture, at, 0).rgb * 255.0));
     return (77 * c.r + 150 * c.g + 29 * c.b + 128) >> 8;
 }
 int exposed(uint state) { return min((int(state & 255u) * gain_4096 + 2048) >> 12, 255); }
-int change_at(ivec2 at, ivec2 last) {
-    at = clamp(at, ivec2(0), last);
-    return abs(luma_at(at) - exposed(texelFetch(state, at, 0).r));
-}
+int change_at(ivec2 at) { return abs(luma_at(at) - exposed(texelFetch(state, at, 0).r)); }
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), last = textureSize(disparity, 0) - 1;
@@ -46,8 +43,9 @@ void main() {
     if (has_state != 0 && now != 0) {
         uint before = texelFetch(state, at, 0).r;
         int mean_before = int(before >> 13), votes_before = int(before >> 8) & 31;
-        int change = change_at(at, last) + change_at(at + ivec2(1, 0), last) + change_at(at - ivec2(1, 0), last) +
-                     change_at(at + ivec2(0, 1), last) + change_at(at - ivec2(0, 1), last);
+        int change = abs(luma - exposed(before)) + change_at(ivec2(min(at.x + 1, last.x), at.y)) +
+                     change_at(ivec2(max(at.x - 1, 0), at.y)) + change_at(ivec2(at.x, min(at.y + 1, last.y))) +
+                     change_at(ivec2(at.x, max(at.y - 1, 0)));
         if (change <= MOST_CHANGE) luma = exposed(before) + ((luma - exposed(before) + 2) >> 2);
         bool agrees = abs(now - mean_before) <= MOST_STEP;
         if (mean_before != 0 && agrees && change <= MOST_CHANGE) {

@@ -38,7 +38,7 @@ class Program:
         self.code = None
 
     def label(self):
-        shown = ('BOTH', 'ALONG', 'ADD', 'SLABS', 'GIVEN', 'KEEP', 'CELL', 'LAST', 'SHIFTED', 'OF_STREAM', 'FORMAT')
+        shown = ('BOTH', 'ALONG', 'ADD', 'SLABS', 'GIVEN', 'KEEP', 'CELL', 'LAST', 'SHIFTED', 'ROW_STEP', 'OF_STREAM', 'FORMAT')
         return ' '.join(f'{k}={v}' for k, v in self.defines.items() if k in shown)
 
 
@@ -122,7 +122,7 @@ def work(program, shape, groups):
     table = {
         'stereo_luma': (up(fine + 2, LANES) * H, []),
         'exposure_gain': (4, [12, 12, 12]),
-        'stereo_features': (up(fine, LANES) * up(H, 16), [0, 0] if 'SHIFTED' in defines else [0, 16]),
+        'stereo_features': (up(fine, LANES) * up(H, 16), [0, 0] if defines.get('SHIFTED') == '1' else [0, up(16, int(defines.get('ROW_STEP', 1)))]),
         'stereo_clear': (1, []),
         'row_shift_votes': (up(up(W, 8), LANES) * up(H, 16), [up(D - 1, 4)]),
         'stereo_halve': (up(coarse + 2, LANES) * h * 2, []),
@@ -136,7 +136,7 @@ def work(program, shape, groups):
         'perm_weight': (up(coarse if along else h, LANES), [h, h] if along else [coarse, coarse]),
         'perm_rows': (groups[0], [coarse, coarse]),
         'perm_columns': (groups[0], [up(h, 4)] * 2),
-        'perm_columns_narrow': (groups[0], [up(h, 4)] * 2),
+        'perm_columns_narrow': (groups[0], [up(h, 8), up(h, 4)]),
         'sgm_path': (groups[0], [h, h] if along else [w, w]),
         'left_right_check': (up(h, LANES), [coarse] * 3),
         'supported_disparity': (up(coarse, LANES) * up(h, 8), [8]),
@@ -205,7 +205,7 @@ def pass_of(program):
     name = program.file.rsplit('.', 1)[0]
     if name == 'sgm_path':
         return 'column paths' if program.defines.get('ALONG') == '1' else 'row paths'
-    if name == 'stereo_features' and 'SHIFTED' in program.defines:
+    if name == 'stereo_features' and program.defines.get('SHIFTED') == '1':
         return 'row shift'
     if name.startswith('path_fill'):
         return 'fill'
@@ -256,12 +256,13 @@ def model(name, runs_folder):
 
 def title(m):
     f = m['facts']
-    return f"{f['preset']} ({f['matcher']}) {f['width_px']}x{f['height_px']}x{f['disparities']}"
+    of_yuyv = ', YUYV' if f.get('format') == 'YUYV' else ''
+    return f"{f['preset']} ({f['matcher']}) {f['width_px']}x{f['height_px']}x{f['disparities']}{of_yuyv}"
 
 
 def document(models, mesa):
     out = ['# The shaders of a rig on a Raspberry Pi\'s compiler', '',
-           f'`tools/v3d.sh` writes this page: it runs the GPU work of a rig\'s frame (NV12 conversion, rectification, matching of a stream,',
+           f'`tools/v3d.sh` writes this page: it runs the GPU work of a rig\'s frame (rectification of NV12 or YUYV, matching of a stream,',
            f'temporal filter) on Mesa {mesa}\'s V3D driver and a pretended GPU. Programs are compiled for the real instruction set; nothing',
            'executes, and no number here was measured on a Raspberry Pi.', '',
            '**Every time is a lower bound.** A pass takes at least the longer of two times: the time to issue the instructions that the',
@@ -322,7 +323,7 @@ def main():
     mesa = (folder / 'mesa_version').read_text().strip()
     order = {'fast': 0, 'balanced': 1, 'quality': 2}
     models = [model(path.stem, folder) for path in folder.glob('v*.json')]
-    models.sort(key=lambda m: (-m['chip']['qpus'], m['facts']['width_px'], order[m['facts']['preset']]))
+    models.sort(key=lambda m: (-m['chip']['qpus'], m['facts']['width_px'], order[m['facts']['preset']], m['name']))
     (folder / 'models.json').write_text(json.dumps(
         [dict(name=m['name'], bound_ms=m['bound_ms'], passes=m['passes']) for m in models], indent=1))
     if '--check' not in sys.argv:

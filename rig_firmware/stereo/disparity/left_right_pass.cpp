@@ -21,18 +21,21 @@ LeftRightPass::LeftRightPass(const ShaderLibrary& library, const StereoLayout& l
 
 void LeftRightPass::run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("left-right check", {pixels * 44, static_cast<double>(pixels) * 188}, [&] {
-        Program& program = weight ? weighted_ : unweighted_;
-        program.use();
-        program.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
-        program.set("stride", layout_.stride_px());
-        winners.bind_storage(0);
-        if (weight) weight->bind_storage(1);
-        claims_.bind_storage(2);
-        disparity_.bind_storage(3);
-        program.dispatch_over(layout_.height_px, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    });
+    // Winners are read twice; claims are cleared, staked and read.
+    const std::size_t bytes_per_pixel = weight ? 40 : 36;
+    profiler.run("left-right check", {pixels * bytes_per_pixel, static_cast<double>(pixels) * 188},
+                 [&] {
+                     Program& program = weight ? weighted_ : unweighted_;
+                     program.use();
+                     program.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
+                     program.set("stride", layout_.stride_px());
+                     winners.bind_storage(0);
+                     if (weight) weight->bind_storage(1);
+                     claims_.bind_storage(2);
+                     disparity_.bind_storage(3);
+                     program.dispatch_over(layout_.height_px, 1);
+                     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+                 });
 }
 
 }  // namespace vantage

@@ -3,9 +3,12 @@
 namespace vantage {
 
 ResultPass::ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
-                       bool with_confidence)
+                       bool with_confidence, DisparityForm form)
     : layout_(layout),
-      pass_(library, "stereo_result.frag", {{"CONFIDENCE", with_confidence ? "1" : "0"}}),
+      form_(form),
+      pass_(library, "stereo_result.frag",
+            {{"CONFIDENCE", with_confidence ? "1" : "0"},
+             {"HALVES", form == DisparityForm::halves ? "1" : "0"}}),
       result_(TextureFormat::r16ui, layout.width_px, layout.height_px),
       confidence_(with_confidence ? std::optional<Texture>(std::in_place, TextureFormat::r8ui,
                                                            layout.width_px, layout.height_px)
@@ -14,7 +17,8 @@ ResultPass::ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
 
 const Texture& ResultPass::run(PassProfiler& profiler, const Buffer& disparity) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("result", {pixels * 6, static_cast<double>(pixels) * 16}, [&] {
+    const std::size_t bytes_per_pixel = form_ == DisparityForm::halves ? 4 : 6;
+    profiler.run("result", {pixels * bytes_per_pixel, static_cast<double>(pixels) * 16}, [&] {
         Program& program = pass_.use();
         program.set("stride", layout_.stride_px());
         disparity.bind_storage(0);

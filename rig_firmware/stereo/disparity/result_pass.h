@@ -12,11 +12,17 @@
 
 namespace vantage {
 
-/// From LeftRightPass's form into the textures that a matcher gives back.
+/// How a pass leaves a disparity per pixel in a buffer.
+enum class DisparityForm {
+    words,   ///< LeftRightPass's: 32 bits with the confidence
+    halves,  ///< 16 bits without it
+};
+
+/// From a buffer into the textures that a matcher gives back.
 class ResultPass {
   public:
     ResultPass(const ShaderLibrary& library, const StereoLayout& layout,
-               bool with_confidence = false);
+               bool with_confidence = false, DisparityForm form = DisparityForm::words);
 
     /// r16ui, see Matcher::match.
     const Texture& run(PassProfiler& profiler, const Buffer& disparity);
@@ -29,6 +35,7 @@ class ResultPass {
 
   private:
     StereoLayout layout_;
+    DisparityForm form_;
     FullscreenPass pass_;
     Texture result_;
     std::optional<Texture> confidence_;

@@ -3,16 +3,20 @@
 namespace vantage {
 
 UpsamplePass::UpsamplePass(const ShaderLibrary& library, const StereoLayout& coarse,
-                           const StereoLayout& fine)
+                           const StereoLayout& fine, DisparityForm form)
     : coarse_(coarse),
       fine_(fine),
-      program_(Program::compute(library, "stereo_upsample.comp")),
-      disparity_(fine.pixels() * 4, GL_DYNAMIC_COPY) {}
+      form_(form),
+      program_(Program::compute(library, "stereo_upsample.comp",
+                                {{"CONFIDENCE", form == DisparityForm::words ? "1" : "0"}})),
+      disparity_(fine.pixels() * (form == DisparityForm::words ? 4 : 2), GL_DYNAMIC_COPY) {}
 
 void UpsamplePass::run(PassProfiler& profiler, const Buffer& coarse_disparity,
                        const Buffer& coarse_luma, const Buffer& fine_luma) {
     const std::size_t pixels = fine_.pixels();
-    profiler.run("upsample", {pixels * 7, static_cast<double>(pixels) * 67}, [&] {
+    // The coarse disparity and luma and the fine luma are read.
+    const std::size_t bytes_per_pixel = 3 + (form_ == DisparityForm::words ? 4 : 2);
+    profiler.run("upsample", {pixels * bytes_per_pixel, static_cast<double>(pixels) * 67}, [&] {
         program_.use();
         program_.set("coarse_size", Eigen::Vector2i(coarse_.width_px, coarse_.height_px));
         program_.set("coarse_stride", coarse_.stride_px());

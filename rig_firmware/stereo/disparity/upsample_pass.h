@@ -2,6 +2,7 @@
 
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
+#include "rig_firmware/stereo/disparity/result_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
@@ -14,8 +15,8 @@ namespace vantage {
 /// neither.
 class UpsamplePass {
   public:
-    UpsamplePass(const ShaderLibrary& library, const StereoLayout& coarse,
-                 const StereoLayout& fine);
+    UpsamplePass(const ShaderLibrary& library, const StereoLayout& coarse, const StereoLayout& fine,
+                 DisparityForm form = DisparityForm::words);
 
     /// Disparity in LeftRightPass's form, lumas in LumaPass's.
     void run(PassProfiler& profiler, const Buffer& coarse_disparity, const Buffer& coarse_luma,
@@ -26,6 +27,7 @@ class UpsamplePass {
 
   private:
     StereoLayout coarse_, fine_;
+    DisparityForm form_;
     Program program_;
     Buffer disparity_;
 };

@@ -8,23 +8,31 @@ namespace {
 /// Of the census, which slides its neighbourhood down the picture.
 constexpr int rows_an_invocation = 16;
 
+Program feature_program(const ShaderLibrary& library, FeatureRows rows, bool is_shifted) {
+    return Program::compute(library, "stereo_features.comp",
+                            {{"ROWS", std::to_string(rows_an_invocation)},
+                             {"ROW_STEP", rows == FeatureRows::even ? "2" : "1"},
+                             {"SHIFTED", is_shifted ? "1" : "0"}});
+}
+
 }  // namespace
 
 FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                         PictureKind kind)
+                         PictureKind kind, FeatureRows rows)
     : layout_(layout),
       disparities_(disparities),
       kind_(kind),
-      features_program_(Program::compute(library, "stereo_features.comp",
-                                         {{"ROWS", std::to_string(rows_an_invocation)}})),
-      shifted_program_(
-          Program::compute(library, "stereo_features.comp",
-                           {{"ROWS", std::to_string(rows_an_invocation)}, {"SHIFTED", "1"}})),
+      rows_(rows),
+      features_program_(feature_program(library, rows, false)),
+      shifted_program_(feature_program(library, rows, true)),
       clear_program_(Program::compute(library, "stereo_clear.comp")),
       votes_program_(Program::compute(library, "row_shift_votes.comp")),
       left_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
       right_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
-      votes_(8 * 4, GL_DYNAMIC_COPY) {}
+      votes_(8 * 4, GL_DYNAMIC_COPY) {
+    if (rows == FeatureRows::even)
+        all_rows_program_ = feature_program(library, FeatureRows::all, false);
+}
 
 void FeaturePass::features(Program& program, const Buffer& luma, const Buffer& words) {
     program.use();
@@ -39,12 +47,18 @@ void FeaturePass::features(Program& program, const Buffer& luma, const Buffer& w
 
 void FeaturePass::run(PassProfiler& profiler, const LumaPass& luma) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("census and gradient", {pixels * 12, static_cast<double>(pixels) * 149}, [&] {
-        features(features_program_, luma.left(), left_features_);
-        features(features_program_, luma.right(), right_features_);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    });
     const bool compares = kind_ == PictureKind::single || frames_until_comparison_ == 0;
+    // Rows are compared with their neighbours.
+    const bool takes_all = compares || rows_ == FeatureRows::all;
+    profiler.run(
+        "census and gradient",
+        {pixels * (takes_all ? 12 : 7), static_cast<double>(pixels) * (takes_all ? 149 : 80)}, [&] {
+            Program& program =
+                takes_all && all_rows_program_ ? *all_rows_program_ : features_program_;
+            features(program, luma.left(), left_features_);
+            features(program, luma.right(), right_features_);
+            glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+        });
     frames_until_comparison_ = (compares ? row_shift_period_frames : frames_until_comparison_) - 1;
     constexpr std::size_t sampling = 8 * 16;
     const std::size_t compared =

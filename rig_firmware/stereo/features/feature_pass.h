@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/texture.h"
@@ -8,6 +10,9 @@
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
+
+/// Rows that the matching passes after FeaturePass read.
+enum class FeatureRows { all, even };
 
 /// What the matching passes compare: feature words of both pictures.
 /// If the right picture lies up to two whole rows too low or too high, its words are those of the
@@ -19,7 +24,7 @@ class FeaturePass {
 
     /// disparities: the search range, in which rows are compared.
     FeaturePass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                PictureKind kind = PictureKind::single);
+                PictureKind kind = PictureKind::single, FeatureRows rows = FeatureRows::all);
 
     void run(PassProfiler& profiler, const LumaPass& luma);
     /// The next pair does not follow the last one: its rows are compared.
@@ -38,6 +43,8 @@ class FeaturePass {
     int disparities_;
     PictureKind kind_;
     int frames_until_comparison_ = 0;
+    FeatureRows rows_;
+    std::optional<Program> all_rows_program_;  ///< where rows_ is even
     Program features_program_, shifted_program_, clear_program_, votes_program_;
     Buffer left_features_, right_features_, votes_;
 };

@@ -14,7 +14,7 @@ LumaPass::LumaPass(const ShaderLibrary& library, const StereoLayout& layout, Pic
     if (kind == PictureKind::single) return;
     for (std::optional<Memory>* memory : {&left_memory_, &right_memory_})
         memory->emplace(
-            Memory{ExposurePass(library), Buffer(layout.luma_words() * 16, GL_DYNAMIC_COPY)});
+            Memory{ExposurePass(library), Buffer(layout.luma_words() * 8, GL_DYNAMIC_COPY)});
 }
 
 void LumaPass::convert(const Texture& picture, const Buffer& luma, std::optional<Memory>& memory) {
@@ -35,8 +35,8 @@ void LumaPass::convert(const Texture& picture, const Buffer& luma, std::optional
 
 void LumaPass::run(PassProfiler& profiler, const Texture& left, const Texture& right) {
     const std::size_t pixels = layout_.pixels();
-    // Of a stream, the state of both pictures is read and written besides.
-    const std::size_t bytes_per_pixel = left_memory_ ? 28 : 12;
+    // Of a stream, the state of both pictures and their last luma are read besides.
+    const std::size_t bytes_per_pixel = left_memory_ ? 24 : 12;
     const double operations_per_pixel = left_memory_ ? 150 : 63;
     profiler.run("luma",
                  {pixels * bytes_per_pixel, static_cast<double>(pixels) * operations_per_pixel},

@@ -32,6 +32,14 @@ class CoarseMatcher : public EngineMatcher {
         return {.p1 = 3, .p2 = 16, .columns = true};
     }
 
+    static HalvedCostSamples samples_of(const MatchSettings& settings) {
+        return settings.preset == MatchPreset::fast ? HalvedCostSamples::one
+                                                    : HalvedCostSamples::two;
+    }
+    static DisparityForm result_form(const MatchSettings& settings) {
+        return settings.confidence ? DisparityForm::words : DisparityForm::halves;
+    }
+
     /// `fast` has no time for paths.
     static Fill fill_of(const MatchSettings& settings) {
         if (!settings.fill) return Fill::none;
@@ -42,19 +50,19 @@ class CoarseMatcher : public EngineMatcher {
     CoarseMatcher(const ShaderLibrary& library, const MatchSettings& settings,
                   const StereoLayout& fine, const StereoLayout& coarse, int coarse_disparities,
                   const SgmSettings& paths)
-        : EngineMatcher(library, settings),
-          features_(library, fine, settings.disparities, picture_kind(settings)),
+        : EngineMatcher(library, settings, result_form(settings)),
+          features_(library, fine, settings.disparities, picture_kind(settings),
+                    samples_of(settings) == HalvedCostSamples::one ? FeatureRows::even
+                                                                   : FeatureRows::all),
           halve_(library, fine),
           permeability_(library, coarse, sigma, PermeabilityGuide::plain),
-          cost_(library, fine, settings.disparities,
-                settings.preset == MatchPreset::fast ? HalvedCostSamples::one
-                                                     : HalvedCostSamples::two),
+          cost_(library, fine, settings.disparities, samples_of(settings)),
           perm_(library, coarse, coarse_disparities, PermOutput::costs, PermCosts::given,
                 std::min(paths.most_cost(), max_perm_code)),
           paths_(library, coarse, coarse_disparities, paths, perm_.large_scratch(),
                  perm_.small_scratch()),
           check_(library, coarse, fill_of(settings), Valley::flat, disparity_steps_per_px / 2),
-          upsample_(library, coarse, fine) {}
+          upsample_(library, coarse, fine, result_form(settings)) {}
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
         features_.run(profiler, luma);

@@ -27,6 +27,16 @@ Program column_program(const ShaderLibrary& library, PermOutput output, LaneMapp
     return Program::compute(library, "perm_columns.comp", column_defines(output, valid));
 }
 
+/// Along rows (0) or columns (1).
+Program weight_program(const ShaderLibrary& library, int along, PermOutput output, int most_code) {
+    const int most = output == PermOutput::costs ? most_code : 0;
+    return Program::compute(library, "perm_weight.comp",
+                            {{"ALONG", std::to_string(along)}, {"MOST", std::to_string(most)}});
+}
+
+/// Of a pixel in PermPass::weight().
+std::size_t weight_bytes(PermOutput output) { return output == PermOutput::costs ? 2 : 4; }
+
 ShaderDefines row_defines(PermCosts costs, LaneMapping lanes) {
     ShaderDefines defines = lane_defines(lanes);
     defines.emplace_back("GIVEN", costs == PermCosts::given ? "1" : "0");
@@ -44,11 +54,8 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
       rows_(Program::compute(library, "perm_rows.comp", row_defines(costs, lanes))),
       full_columns_(column_program(library, output, lanes, slab_disparities)),
       last_columns_(column_program(library, output, lanes, valid_in_last_slab(disparities))),
-      weight_rows_(Program::compute(library, "perm_weight.comp", {{"ALONG", "0"}})),
-      weight_columns_(Program::compute(
-          library, "perm_weight.comp",
-          {{"ALONG", "1"},
-           {"MOST", output == PermOutput::costs ? std::to_string(most_code) : "0"}})),
+      weight_rows_(weight_program(library, 0, output, most_code)),
+      weight_columns_(weight_program(library, 1, output, most_code)),
       volume_(layout.block_pixels() * slab_disparities, GL_DYNAMIC_COPY),
       down_(output == PermOutput::costs
                 ? layout.block_pixels() * 2 * slab_disparities
@@ -63,7 +70,7 @@ PermPass::PermPass(const ShaderLibrary& library, const StereoLayout& layout, int
                        ? static_cast<std::size_t>(slabs_of(disparities) * slab_disparities)
                        : 8U),
               GL_DYNAMIC_COPY),
-      weight_(layout.pixels() * 4, GL_DYNAMIC_COPY) {}
+      weight_(layout.pixels() * weight_bytes(output), GL_DYNAMIC_COPY) {}
 
 std::size_t PermPass::volume_bytes() const {
     return volume_.bytes() + down_.bytes() + (kind_ == PermOutput::costs ? output_.bytes() : 0U);
@@ -100,16 +107,23 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass* features,
         lanes_ == LaneMapping::disparities ? 2 * layout_.height_px : layout_.height_px;
     const int column_lanes =
         has_narrow_columns(kind_, lanes_) ? 2 * layout_.width_px : layout_.width_px;
-    profiler.run("weights", {pixels * 40, static_cast<double>(pixels) * 79}, [&] {
+    // A weight is written and read back twice along each direction, beside the permeabilities.
+    const std::size_t weight_traffic = 4 + 7 * weight_bytes(kind_);
+    profiler.run("weights", {pixels * weight_traffic, static_cast<double>(pixels) * 79}, [&] {
         permeability.along().bind_storage(0);
         weight_.bind_storage(1);
         run_line_pass(weight_rows_, layout_.height_px, 0);
         permeability.down().bind_storage(0);
         run_line_pass(weight_columns_, layout_.stride_px() / 4, 0);
     });
+    // Per pixel of a slab: costs or features and permeabilities there and back, the sums, and the
+    // marks written and read. Columns read the sums twice and leave costs or winners.
+    const bool has_sparse_marks = lanes_ == LaneMapping::disparities;
+    const std::size_t row_bytes = features ? 50 : has_sparse_marks ? 58 : 66;
+    const std::size_t column_bytes = has_narrow_columns(kind_, lanes_) ? 60 : 68;
     for (int first = 0; first < disparities_; first += slab_disparities) {
-        profiler.run("cost and rows",
-                     {pixels * (16 + 2 * 8 + 24), evaluations * (features ? 32 : 10)}, [&] {
+        profiler.run("cost and rows", {pixels * row_bytes, evaluations * (features ? 32 : 10)},
+                     [&] {
                          (features ? features->left_features() : output_).bind_storage(0);
                          if (features) features->right_features().bind_storage(1);
                          permeability.along().bind_storage(2);
@@ -117,16 +131,15 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass* features,
                          down_.bind_storage(4);
                          run_line_pass(rows_, row_lanes, first);
                      });
-        profiler.run(
-            "columns and winners", {pixels * (2 * 16 + 2 * 8 + 12 + 16), evaluations * 15}, [&] {
-                permeability.down().bind_storage(0);
-                volume_.bind_storage(1);
-                down_.bind_storage(2);
-                output_.bind_storage(3);
-                weight_.bind_storage(4);
-                const bool is_last = first + slab_disparities >= disparities_;
-                run_line_pass(is_last ? last_columns_ : full_columns_, column_lanes, first);
-            });
+        profiler.run("columns and winners", {pixels * column_bytes, evaluations * 15}, [&] {
+            permeability.down().bind_storage(0);
+            volume_.bind_storage(1);
+            down_.bind_storage(2);
+            output_.bind_storage(3);
+            weight_.bind_storage(4);
+            const bool is_last = first + slab_disparities >= disparities_;
+            run_line_pass(is_last ? last_columns_ : full_columns_, column_lanes, first);
+        });
     }
 }
 

@@ -82,8 +82,8 @@ void run(const Options& options) {
     for (int frame = 0; frame < options.frames; ++frame) {
         matcher->set_profiling(frame + 1 == options.frames);
         std::cerr << "RIG_FRAME " << frame << std::endl;
-        const Texture& left = rectify_left.rectify(left_intake.bring(picture));
-        const Texture& right = rectify_right.rectify(right_intake.bring(picture));
+        const Texture& left = rectify_left.rectify(left_intake.planes(picture));
+        const Texture& right = rectify_right.rectify(right_intake.planes(picture));
         readback.begin(temporal.run(matcher->match(left, right), left));
         (void)readback.take();
     }
@@ -96,9 +96,11 @@ void run(const Options& options) {
             ? pixels * 3 / 2
             : bytes_per_line(options) * static_cast<std::size_t>(options.height_px);
     auto passes = nlohmann::ordered_json::array();
-    passes.push_back({{"name", "camera"}, {"bytes_moved", 2 * (camera_bytes + pixels * 4)}});
+    const double raw_bytes_per_pixel =
+        static_cast<double>(camera_bytes) / static_cast<double>(pixels);
     passes.push_back({{"name", "rectify"},
-                      {"bytes_moved", rectify_left.bytes_moved() + rectify_right.bytes_moved()}});
+                      {"bytes_moved", rectify_left.bytes_moved(raw_bytes_per_pixel) +
+                                          rectify_right.bytes_moved(raw_bytes_per_pixel)}});
     for (const PassReport& pass : matcher->passes())
         passes.push_back({{"name", pass.name},
                           {"gpu_ms", pass.gpu_ms},
@@ -112,6 +114,7 @@ void run(const Options& options) {
                                         {"preset", options.preset},
                                         {"matcher", name},
                                         {"frames", options.frames},
+                                        {"format", fourcc_text(fourcc_of(options.format))},
                                         {"passes", passes}}
                      .dump(2)
               << "\n";

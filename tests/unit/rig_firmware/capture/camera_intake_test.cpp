@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "common/rectification/rectify_pass.h"
+#include "common/rectification/rectify_reference.h"
 #include "rig_firmware/capture/buffer_lender.h"
 #include "tests/support/shared_memory.h"
 #include "tests/support/thrown_sentence.h"
@@ -64,6 +66,86 @@ TEST_F(CameraIntakeTest, TakesHalfOfAPictureThatHoldsBothSides) {
                   0)
             << fourcc_text(fourcc_of(format));
     }
+}
+
+/// A calibration of two cameras that look towards each other.
+StereoCalibration toed_in(int width_px) {
+    StereoCalibration calibration;
+    CameraModel camera;
+    camera.width_px = width_px;
+    camera.height_px = height;
+    camera.fx_px = camera.fy_px = 0.9 * width;
+    camera.cx_px = 0.48 * width_px;
+    camera.cy_px = 0.53 * height;
+    calibration.left = calibration.right = camera;
+    calibration.right_from_left.linear() =
+        Eigen::AngleAxisd(0.04, Eigen::Vector3d(0.3, 1.0, 0.2).normalized()).toRotationMatrix();
+    calibration.right_from_left.translation() = Eigen::Vector3d(-0.12, 0.003, 0.002);
+    compute_rectification(calibration, 1);  // shows what lies outside, too
+    return calibration;
+}
+
+/// Y, U, V and 255 of each pixel.
+ColourImage yuv_of(const LentPicture& picture) {
+    const auto byte = [&](std::size_t row, int column) {
+        return std::to_integer<unsigned char>(
+            picture.raw.bytes[row * bytes_per_line + static_cast<std::size_t>(column)]);
+    };
+    ColourImage yuv(height, width);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const auto row = static_cast<std::size_t>(y);
+            const int pair = x / 2 * 2;
+            if (picture.raw.format == PixelFormat::yuyv)
+                yuv(y, x) = {byte(row, 2 * x), byte(row, 2 * pair + 1), byte(row, 2 * pair + 3),
+                             255};
+            else
+                yuv(y, x) = {byte(row, x), byte(static_cast<std::size_t>(height + y / 2), pair),
+                             byte(static_cast<std::size_t>(height + y / 2), pair + 1), 255};
+        }
+    return yuv;
+}
+
+TEST_F(CameraIntakeTest, PlanesAreRectifiedAsTheCpuDoesBitForBit) {
+    for (const cv::Rect& view :
+         {cv::Rect(0, 0, width, height), cv::Rect(width / 2 + 1, 0, width / 2 - 1, height)}) {
+        const StereoCalibration calibration = toed_in(view.width);
+        const cv::Mat2f positions = make_rectification_map(calibration, Side::left);
+        CameraIntake intake(context_, library_, view.size());
+        RectifyPass rectify(library_, calibration, Side::left);
+        for (const PixelFormat format : uncompressed) {
+            LentPicture picture = lent(format, bytes_);
+            picture.view = view;
+            const bool is_yuv = format == PixelFormat::yuyv || format == PixelFormat::nv12;
+            const ColourImage expected =
+                is_yuv ? rectify_yuv_reference(yuv_of(picture)(view), positions)
+                       : rectify_reference(to_colour(picture.raw)(view), positions);
+            const cv::Mat rectified = rectify.rectify(intake.planes(picture)).download();
+            EXPECT_EQ(cv::norm(rectified, expected, cv::NORM_INF), 0)
+                << fourcc_text(fourcc_of(format)) << " from column " << view.x;
+        }
+        EXPECT_EQ(intake.counts().copied, uncompressed.size());
+    }
+}
+
+TEST(RectifyYuv, DiffersFromRectifyingTheConvertedPictureByRoundingAlone) {
+    // A smooth picture: chroma of two pixels lies between them in one order and not in the other.
+    ColourImage yuv(40, 60);
+    for (int y = 0; y < yuv.rows; ++y)
+        for (int x = 0; x < yuv.cols; ++x)
+            yuv(y, x) = cv::Vec4b(static_cast<unsigned char>(60 + 2 * x),
+                                  static_cast<unsigned char>(100 + y), 140, 255);
+    cv::Mat2f as_it_is(yuv.size()), moved(yuv.size());
+    for (int y = 0; y < yuv.rows; ++y)
+        for (int x = 0; x < yuv.cols; ++x) {
+            const auto column = static_cast<float>(x), row = static_cast<float>(y);
+            as_it_is(y, x) = {column, row};
+            moved(y, x) = {column * 0.97F + 0.3F, row * 0.95F + 0.4F};
+        }
+    const ColourImage converted = rectify_yuv_reference(yuv, as_it_is);
+    EXPECT_LE(cv::norm(rectify_yuv_reference(yuv, moved), rectify_reference(converted, moved),
+                       cv::NORM_INF),
+              2);
 }
 
 TEST_F(CameraIntakeTest, SaysWhyItCopies) {

@@ -229,6 +229,13 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
     expect_equal(lower_half(fine_words), as_int(upsampled(disparity, half_left.luma, left_.luma)),
                  "upsampled");
     expect_equal(upper_half(fine_words), cv::Mat1i(fine_words.size(), 77), "confidence");
+
+    UpsamplePass without_confidence(library_, half, layout_, DisparityForm::halves);
+    without_confidence.run(profiler_, buffer_of(disparity, half, 77), halve.luma(), fine.left());
+    EXPECT_EQ(without_confidence.disparity().bytes(), upsample.disparity().bytes() / 2);
+    ResultPass result(library_, layout_, false, DisparityForm::halves);
+    expect_equal(as_int(result.run(profiler_, without_confidence.disparity()).download()),
+                 lower_half(fine_words), "result of 16 bits");
 }
 
 TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBitForBit) {
@@ -270,6 +277,32 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
                 perm_costs(costs, permeability_of(halved(left_), permeability_table(sigma)),
                            most_code));
         }
+}
+
+TEST_P(EnginePassesTest, FeaturesOfEvenRowsAreThoseOfAllRows) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    right.upload(pair_.right);
+    LumaPass luma(library_, layout_);
+    luma.run(profiler_, left, right);
+    const auto even_rows = [&](const Buffer& features) {
+        const cv::Mat1i words = channel_of(features, layout_, 1, 0);
+        cv::Mat1i rows((words.rows + 1) / 2, words.cols);
+        for (int y = 0; y < rows.rows; ++y) words.row(2 * y).copyTo(rows.row(y));
+        return rows;
+    };
+    FeaturePass all(library_, layout_, GetParam().disparities, PictureKind::of_stream);
+    FeaturePass even(library_, layout_, GetParam().disparities, PictureKind::of_stream,
+                     FeatureRows::even);
+    // Rows are compared in the first frame, which needs them all.
+    for (const char* frame : {"compared", "not compared"}) {
+        all.run(profiler_, luma);
+        even.run(profiler_, luma);
+        expect_equal(even_rows(even.left_features()), even_rows(all.left_features()), frame);
+        expect_equal(even_rows(even.right_features()), even_rows(all.right_features()), frame);
+        luma.run(profiler_, right, left);
+    }
 }
 
 TEST_P(EnginePassesTest, CostsThatAreComputedBeforeTheirAggregationLeaveTheSameBits) {
