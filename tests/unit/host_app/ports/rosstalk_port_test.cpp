@@ -1,5 +1,6 @@
 #include <fstream>
 
+#include "host_app/control/ports/messages/line_splitter.h"
 #include "host_app/control/ports/messages/rosstalk_map.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
@@ -85,7 +86,7 @@ TEST_F(BenchTest, RossTalkObeysLinesThatEndWithALineFeedAndCountsWhatIsLeft) {
         const LocalCaller caller(number_);
         caller.say("GPI 2\nGPI 1");
         serve(*port, 1);
-        EXPECT_TRUE(operator_input_.take().input.toggle_freeze);
+        EXPECT_TRUE(operator_input_.take().input.find<command::ToggleHold>());
     }
     serve(*port, 2);
     EXPECT_EQ(port->stats().obeyed, 1u);
