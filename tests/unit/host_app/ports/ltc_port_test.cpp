@@ -65,6 +65,7 @@ void write_ltc(const std::string& path, int rate_hz, std::size_t channel) {
     std::vector<float> samples;
     for (int frame = 0; frame < 50; ++frame) {
         ltc_encoder_encode_frame(encoder);
+        ltc_encoder_inc_timecode(encoder);
         ltcsnd_sample_t* bytes = nullptr;
         const int count = ltc_encoder_get_bufferptr(encoder, &bytes, 1);
         for (int i = 0; i < count; ++i)

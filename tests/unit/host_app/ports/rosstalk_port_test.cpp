@@ -1,5 +1,6 @@
 #include <fstream>
 
+#include "host_app/control/ports/messages/line_splitter.h"
 #include "host_app/control/ports/messages/rosstalk_map.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
@@ -13,13 +14,15 @@ namespace {
 TEST(RossTalkLine, HasANumberOrDestinationAndSource) {
     using Kind = RossTalkOrder::Kind;
     EXPECT_EQ(parse_rosstalk("GPI 12").order, (RossTalkOrder{Kind::gpi, 12, 0}));
+    EXPECT_EQ(parse_rosstalk("GPI 12 ").order, (RossTalkOrder{Kind::gpi, 12, 0}))
+        << "some panels send a blank before the end of the line";
     EXPECT_EQ(parse_rosstalk("XPT 2:7").order, (RossTalkOrder{Kind::xpt, 2, 7}));
-    for (const char* wrong : {"GPI ", "GPI x", "GPI 1 ", "GPI -1", "GPI  1", "GPI 99999999999",
-                              "XPT 2", "XPT :2", "XPT 1:", "XPT 1:2:3", "XPT 1;2"}) {
+    for (const char* wrong : {"GPI x", "GPI -1", "GPI  1", "GPI 99999999999", "XPT 2", "XPT :2",
+                              "XPT 1:", "XPT 1:2:3", "XPT 1;2"}) {
         EXPECT_FALSE(parse_rosstalk(wrong).order) << wrong;
         EXPECT_TRUE(parse_rosstalk(wrong).is_known) << wrong;
     }
-    for (const char* other : {"", "gpi 1", "Gpi 1", "GPI", "MEM 3", "FTB"})
+    for (const char* other : {"", "gpi 1", "Gpi 1", "GPI", "GPI ", "MEM 3", "FTB"})
         EXPECT_FALSE(parse_rosstalk(other).is_known) << other;
 }
 
@@ -85,7 +88,7 @@ TEST_F(BenchTest, RossTalkObeysLinesThatEndWithALineFeedAndCountsWhatIsLeft) {
         const LocalCaller caller(number_);
         caller.say("GPI 2\nGPI 1");
         serve(*port, 1);
-        EXPECT_TRUE(operator_input_.take().input.toggle_freeze);
+        EXPECT_TRUE(operator_input_.take().input.find<command::ToggleHold>());
     }
     serve(*port, 2);
     EXPECT_EQ(port->stats().obeyed, 1u);
