@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-/// The number that shaders/capture/camera_picture.frag has for the format.
+/// Number of the format in shaders/capture/camera_picture.frag.
 int shader_format(PixelFormat format) {
     switch (format) {
         case PixelFormat::y10:
@@ -31,7 +31,8 @@ void bind_planes(const Planes& planes) {
     for (const auto& plane : planes) plane.bind(unit++);
 }
 
-/// A view of the plane's bytes; OpenCV wants them writable and nothing writes.
+/// Wraps the bytes of a plane without a copy. OpenCV requires writable memory, but nothing writes
+/// to it.
 cv::Mat texels_of(const RawPicture& picture, const PicturePlane& plane) {
     const std::byte* begin = picture.bytes.data() + plane.offset;
     return {plane.height_px, plane.width_px, format_info(plane.format).cv_type,
@@ -62,7 +63,7 @@ void CameraIntake::prepare(const LentPicture& specimen, const std::string& why_n
             reason_ = error.what();
         }
     }
-    // Drivers finish their programs at the first drawing.
+    // Drivers finish compiling at the first draw call.
     (void)bring(specimen);
     counts_ = {};
 }
@@ -82,7 +83,7 @@ const Texture& CameraIntake::bring(const LentPicture& picture) {
         try {
             planes = &imported(picture);
         } catch (const Error& error) {
-            // One that was plugged in anew may have another driver.
+            // A camera that was plugged in again may have another driver.
             log_warning("{}; pictures are copied from now on", error.what());
             imports_ = false;
             reason_ = error.what();

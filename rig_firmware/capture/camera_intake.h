@@ -15,29 +15,31 @@
 
 namespace vantage {
 
-/// Brings the pictures of one side to the GPU as RGBA textures. A lent picture's buffer is imported
-/// as it is where the driver can, and converted there; where it cannot, its bytes are copied there
-/// and converted just so. Buffers go round, and so each is imported once. Used in one context.
+/// Uploads the images of one camera to the GPU as RGBA textures. A lent buffer is imported without
+/// a copy if the driver can, and converted on the GPU; otherwise its bytes are uploaded and
+/// converted in the same way. Drivers reuse their buffers, so that each is imported once. Use it in
+/// one GL context.
 class CameraIntake {
   public:
     struct Counts {
         std::uint64_t imported = 0;
-        std::uint64_t copied = 0;  ///< of lent pictures
+        std::uint64_t copied = 0;  ///< lent images only
     };
 
-    /// `context` and `library` must outlive it.
+    /// `context` and `library` must outlive this object.
     CameraIntake(const EglContext& context, const ShaderLibrary& library, cv::Size size);
 
-    /// Imports the buffer on trial and builds the programs for its format. From then on pictures
-    /// are imported if that worked; until then they are copied. `why_not`: not empty to only build.
+    /// Tries to import the buffer and compiles the programs for its format. If the import works,
+    /// images are imported from then on; otherwise they are copied. If `why_not` is not empty, it
+    /// is the reason to copy, and no import is tried.
     void prepare(const LentPicture& specimen, const std::string& why_not = {});
 
     bool imports() const { return imports_; }
-    /// Why pictures are copied; empty if they are not.
+    /// Reason why images are copied; empty if they are imported.
     const std::string& reason() const { return reason_; }
 
-    /// The texture is valid until the next call; a lent picture has to be kept until the GPU is
-    /// through with it. Throws Error if it is not of this intake's size.
+    /// Uploads one image. The texture is valid until the next call; the caller keeps a lent image
+    /// until the GPU has finished with it. Throws Error if the size is not that of this intake.
     const Texture& bring(const ColourImage& picture);
     const Texture& bring(const LentPicture& picture);
 
@@ -52,11 +54,11 @@ class CameraIntake {
     const ShaderLibrary& library_;
     Texture colour_;
     Framebuffer target_;
-    std::optional<PixelFormat> format_;  ///< that pass_ is for
+    std::optional<PixelFormat> format_;  ///< the format of pass_
     std::optional<FullscreenPass> pass_;
-    std::vector<Texture> copies_;  ///< planes of a picture that is not imported
+    std::vector<Texture> copies_;  ///< planes of an image that is not imported
     std::shared_ptr<const void> camera_;
-    std::map<unsigned, std::vector<DmaBufTexture>> imports_of_;  ///< by index of camera_'s buffers
+    std::map<unsigned, std::vector<DmaBufTexture>> imports_of_;  ///< by buffer index of camera_
     bool imports_ = false;
     std::string reason_ = "no buffer was offered";
     Counts counts_;
