@@ -16,7 +16,7 @@ namespace {
 
 constexpr double points_per_m = 72 / 0.0254;
 constexpr double caption_m = 0.014;
-/// Above the lower edge; printers leave some millimetres blank.
+/// Heights above the lower edge of the page; printers leave some millimetres blank.
 constexpr double caption_text_m = 0.006, ruler_line_m = 0.011, ruler_mark_m = 0.0015;
 constexpr double ruler_m = 0.1;
 constexpr double around_frame_m = 0.01;
@@ -31,8 +31,8 @@ struct FreePdf {
 
 float points(double m) { return static_cast<float>(m * points_per_m); }
 
-/// A page with a board; `face` is what its caption begins with, for one that is cut out and glued
-/// to a body. On a given sheet the board lies in the middle.
+/// Adds a page with a board. `face` begins the caption of a board that is cut out and glued to a
+/// body. On a given sheet the board is centred.
 void add_page(HPDF_Doc pdf, const BoardPattern& pattern, const std::string& face,
               const std::optional<Paper>& paper) {
     const bool is_cut_out = !face.empty();
@@ -50,7 +50,7 @@ void add_page(HPDF_Doc pdf, const BoardPattern& pattern, const std::string& face
     const double frame_m = is_cut_out ? around_frame_m : 0, margin = board_margin_m(pattern);
     const double board_width_m = needed.width_m - 2 * frame_m;
     const double board_height_m = needed.height_m - 2 * frame_m - caption_m;
-    // PDF counts from the lower left.
+    // PDF coordinates start at the lower left.
     const double left = 0.5 * (sheet.width_m - needed.width_m) + frame_m;
     const double top = sheet.height_m - 0.5 * (sheet.height_m - needed.height_m) - frame_m;
     const HPDF_Page page = HPDF_AddPage(pdf);

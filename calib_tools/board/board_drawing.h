@@ -12,24 +12,25 @@
 
 namespace vantage {
 
-/// A black or white rectangle of a board, metres from the upper left of its outer squares.
+/// Black or white rectangle of a board, in metres from the upper left of its outer squares.
 struct BoardPatch {
     cv::Rect2d place_m;
     bool black = true;
 };
 
-/// In the order in which they are painted, on white.
+/// Rectangles in painting order, on a white page.
 std::vector<BoardPatch> board_patches(const BoardPattern& pattern);
 
-/// Width of the white border that a finder needs around the squares.
+/// Width in metres of the white border that detection needs around the squares.
 double board_margin_m(const BoardPattern& pattern);
 
-/// The board with its margin; one square is `square_px` wide.
+/// Draws the board with its margin; one square is `square_px` wide.
 GreyImage draw_board(const BoardPattern& pattern, int square_px);
 
-/// A page that holds the board at its true size, with a ruler to check the print by; of a body of
-/// several boards a page each, with a frame to cut along. The page is as large as it needs, or the
-/// given sheet. Throws Error if a board does not fit the sheet, or a PDF page (max_page_m).
+/// Draws a PDF page with the board at its true size, and a ruler to check the print. A body of
+/// several boards gets a page for each, with a frame to cut along. The page is as large as
+/// necessary, or the given sheet. Throws Error if a board does not fit the sheet, or a PDF page
+/// (max_page_m).
 std::vector<std::byte> board_as_pdf(const std::vector<BoardPattern>& faces,
                                     const std::optional<Paper>& paper = {});
 

@@ -7,15 +7,16 @@
 
 namespace vantage {
 
-/// A board's description (TOML, version 1): kind, columns, rows, square_m, and for ChArUco
-/// marker_m, dictionary, first_marker and, where it is true, legacy. Both throw Error; unknown keys
-/// are refused, and a body of several boards too.
+/// Read and write a board's description (TOML, version 1): kind, columns, rows, square_m, and for
+/// ChArUco marker_m, dictionary, first_marker and, if true, legacy. Both throw Error; unknown keys
+/// and bodies of several boards are refused.
 BoardPattern load_board(const std::filesystem::path& path);
 void save_board(const std::filesystem::path& path, const BoardPattern& pattern);
 
-/// A body of boards that are fixed to each other, such as a cube: as a ChArUco board's description,
-/// with `first_markers`, the first marker of every face, in place of first_marker. A single board
-/// is a body of one. Both throw Error; what is saved are faces that differ by their markers only.
+/// Read and write a body of boards that are fixed to each other, such as a cube. The file is that
+/// of a ChArUco board, with `first_markers`, the first marker of every face, instead of
+/// first_marker. A single board is a body of one. Both throw Error; faces can be saved only if they
+/// differ in their markers alone.
 std::vector<BoardPattern> load_body(const std::filesystem::path& path);
 void save_body(const std::filesystem::path& path, const std::vector<BoardPattern>& faces);
 

@@ -17,7 +17,7 @@ namespace vantage {
 
 namespace {
 
-/// All ChArUco boards of the set; `exposure` as find_charuco takes it.
+/// Finds all ChArUco boards of the board list; for `exposure` see find_charuco().
 BoardSighting find_charuco_boards(const GreyImage& picture, const GreyImage& exposure,
                                   const CalibrationBoards& set) {
     std::map<std::string, std::vector<FoundMarker>> markers;

@@ -6,9 +6,9 @@
 
 namespace vantage {
 
-/// Finds the boards of the set that the picture shows, whatever their kind, and measures their
-/// corners to a fraction of a pixel. Markers are searched once a dictionary, and where no board is
-/// found, once more with black and white swapped.
+/// Finds all boards of the list in an image, of either kind, and measures their corners to a
+/// fraction of a pixel. It searches markers once per dictionary, and again with black and white
+/// swapped if it finds no board.
 BoardSighting find_board(const GreyImage& picture, const CalibrationBoards& set);
 
 }  // namespace vantage

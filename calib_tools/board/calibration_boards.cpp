@@ -8,7 +8,8 @@
 namespace vantage {
 namespace {
 
-/// 4X4_50 holds the first fifty markers of 4X4_1000: what stands before the count decides.
+/// 4X4_50 holds the first fifty markers of 4X4_1000, so that the part before the count identifies
+/// the markers.
 std::string markers_alike(const std::string& dictionary) {
     return dictionary.substr(0, dictionary.find('_'));
 }

@@ -20,10 +20,10 @@ namespace {
 constexpr double max_marker_radius_px = 15;
 constexpr int fewest_corners = 6;
 
-/// The corners of a marker on the board, metres, clockwise from the upper left.
+/// Corners of a marker on the board, in metres, clockwise from the upper left.
 void marker_corners_m(const BoardPattern& pattern, int id, std::vector<cv::Point2d>& out) {
     const cv::Point square = marker_square(pattern, id);
-    // The board's origin is the first INNER corner, one square in.
+    // The origin of the board is the first INNER corner, one square from the edge.
     const double margin = 0.5 * (pattern.square_m - pattern.marker_m);
     const double x0 = (square.x - 1) * pattern.square_m + margin;
     const double y0 = (square.y - 1) * pattern.square_m + margin;
@@ -38,8 +38,8 @@ Eigen::Vector2d apply(const cv::Matx33d& h, double x, double y) {
     return {p[0] / p[2], p[1] / p[2]};
 }
 
-/// Of the board's area that its markers place in the picture, hidden parts included. Glare hides
-/// markers, so that it must not be looked for between those found.
+/// Burnt-out share of the board's whole area, as its markers place it in the image, hidden parts
+/// included. Glare hides markers, so that it must not be measured between the detected ones only.
 double burnt_out_share_of(const GreyImage& picture, const BoardPattern& pattern,
                           const std::map<int, FoundMarker>& markers) {
     std::vector<cv::Point2d> on_board, in_picture;
@@ -61,9 +61,9 @@ Eigen::Vector2d marker_middle(const BoardPattern& pattern, int id) {
     return {square.x, square.y};
 }
 
-/// How far the corners of each marker and its three nearest lie from where a plane would have them
-/// by the pattern's layout, RMS over sides of a marker; the mean of all markers, of which none
-/// counts more than a side.
+/// Error of a layout: how far the corners of each marker and of its three nearest neighbours are
+/// from a plane with this layout, as RMS in sides of a marker. The result is the mean over all
+/// markers; each counts at most one side.
 double layout_misfit(const BoardPattern& pattern, const std::map<int, FoundMarker>& markers) {
     double misfits = 0;
     for (const auto& [id, marker] : markers) {
@@ -98,11 +98,12 @@ struct Layout {
     bool is_legacy = false, is_sure = true;
 };
 
-/// The layout that the markers tell, or else the described one: where rows hold an odd count of
-/// squares, a part of the board may look the same in both.
+/// Layout that the markers show, or else the described one. With an odd number of squares in each
+/// row, a part of the board may look the same in both.
 Layout layout_of(const BoardPattern& described, const std::map<int, FoundMarker>& markers) {
     if (!described.has_legacy_layout()) return {described.legacy};
-    // The wrong layout misses by half a marker, the right one by the bend of lens and board.
+    // The wrong layout misses by half a marker, the right one only by lens distortion and the bend
+    // of the board.
     constexpr double surely_wrong = 0.1;
     BoardPattern other = described;
     other.legacy = !described.legacy;
@@ -162,7 +163,8 @@ BoardSighting find_charuco(const GreyImage& picture, const GreyImage& exposure,
     sighting.layout_is_sure = layout.is_sure;
     std::vector<double> blurs, contrasts, spacings;
     for (int id = 0; id < pattern.corner_count(); ++id) {
-        // The nearest markers place the corner: lens and bent board hardly count so near.
+        // The nearest markers predict the corner, since distortion and bend hardly count at that
+        // distance.
         const Eigen::Vector3d corner = pattern.corner_m(id);
         std::vector<std::pair<double, int>> nearest;
         for (const auto& [marker_id, marker] : markers) {
@@ -185,7 +187,7 @@ BoardSighting find_charuco(const GreyImage& picture, const GreyImage& exposure,
         const Eigen::Vector2d start = apply(h, corner.x(), corner.y());
         const Eigen::Vector2d row = apply(h, corner.x() + pattern.square_m, corner.y()) - start;
         const Eigen::Vector2d column = apply(h, corner.x(), corner.y() + pattern.square_m) - start;
-        // Markers begin inside their squares: the circle must not reach them along either edge.
+        // Markers begin inside their squares; the circle must not reach them along either edge.
         const double clear = 0.5 * (1 - pattern.marker_m / pattern.square_m);
         const double area = std::abs(row.x() * column.y() - row.y() * column.x());
         const double across = area / std::max(row.norm(), column.norm());

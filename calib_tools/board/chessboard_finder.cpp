@@ -16,31 +16,31 @@
 namespace vantage {
 namespace {
 
-// Of the distance to the next edge: the fit's circle must not reach the next edge's blur.
+// Share of the distance to the next edge: the circle of the fit must not reach that edge's blur.
 constexpr double clear_share = 0.7;
 constexpr double max_radius_px = 15;
-constexpr double fewest_measured = 0.7;  // of the corners
+constexpr double fewest_measured = 0.7;  // share of the corners
 
 std::optional<CornerGrid> to_grid(const std::vector<cv::Point2f>& corners, cv::Size size,
                                   double scale) {
     if (static_cast<int>(corners.size()) != size.area()) return std::nullopt;
     CornerGrid grid{size.width, size.height, {}};
-    // Pixel centres are at integers, so an enlarged picture is shifted by half a pixel.
+    // Pixel centres are at integers, so that an enlarged image is shifted by half a pixel.
     for (const cv::Point2f& p : corners)
         grid.pixels.emplace_back((p.x + 0.5) / scale - 0.5, (p.y + 0.5) / scale - 0.5);
     return without_strays(grid);
 }
 
-/// Neither equalised nor thresholded by neighbourhood: on an even, noisy wall either makes
-/// thousands of flecks, and OpenCV takes many seconds to find no board among them.
+/// No equalisation and no adaptive threshold. On an evenly lit, noisy wall either of them creates
+/// thousands of specks, and OpenCV takes many seconds to find no board among them.
 constexpr int quick_search = 0;
 
 std::optional<CornerGrid> find_grid(const GreyImage& picture, cv::Size size) {
     std::vector<cv::Point2f> corners;
     if (cv::findChessboardCorners(picture, size, corners, quick_search))
         return to_grid(corners, size, 1);
-    // Small squares need an enlarged picture; large pictures are searched smaller, since corners
-    // are measured in the picture itself anyway.
+    // Small squares need an enlarged image. Large images are searched at reduced size, since
+    // corners are measured at full size afterwards.
     constexpr double small_px = 800, large_px = 1600;
     const double scale = picture.cols <= small_px ? 2 : std::min(1.0, large_px / picture.cols);
     cv::Mat scaled = picture;
@@ -53,7 +53,7 @@ std::optional<CornerGrid> find_grid(const GreyImage& picture, cv::Size size) {
 
 struct RefinedGrid {
     CornerGrid grid;
-    std::vector<bool> measured;  ///< false: hidden or burnt out, its place is a guess
+    std::vector<bool> measured;  ///< false: hidden or burnt out, and its position is an estimate
     double blur_px = 0, contrast = 0;
 };
 
@@ -63,7 +63,7 @@ Eigen::Vector2d neighbour_direction(const CornerGrid& g, int c, int r, int dc, i
     return g.at(c1, r1) - g.at(c0, r0);
 }
 
-/// True if the pattern of squares goes on beyond one of the sides: then the board is larger.
+/// True if the squares continue beyond one of the sides, so that the board is larger.
 bool continues_beyond(const GreyImage& picture, const RefinedGrid& refined) {
     const CornerGrid& grid = refined.grid;
     const CornerGrid sides[] = {grid, grid.half_turned(), grid.transposed(),
@@ -71,7 +71,8 @@ bool continues_beyond(const GreyImage& picture, const RefinedGrid& refined) {
     for (const CornerGrid& g : sides) {
         int inside = 0, crossings = 0;
         for (int c = 0; c < g.columns; ++c) {
-            // Three corners of a line extrapolated: exact enough in perspective for one square.
+            // Extrapolates three corners of a line, which is exact enough in perspective for one
+            // square.
             const Eigen::Vector2d step = g.at(c, 0) - g.at(c, 1);
             const Eigen::Vector2d next = 3 * g.at(c, 0) - 3 * g.at(c, 1) + g.at(c, 2);
             const double radius =
@@ -82,7 +83,7 @@ bool continues_beyond(const GreyImage& picture, const RefinedGrid& refined) {
             ++inside;
             const std::optional<CornerFit> fit =
                 fit_corner(picture, next, neighbour_direction(g, c, 0, 1, 0), step, radius);
-            // The outer corner of a black square, blurred, looks like half a crossing.
+            // The blurred outer corner of a black square looks like half a crossing.
             if (fit && fit->contrast > 0.65 * refined.contrast &&
                 fit->residual < 0.35 * fit->contrast && fit->blur_px < 3 * refined.blur_px &&
                 (fit->pixel - next).norm() < 0.2 * step.norm())
@@ -96,8 +97,8 @@ bool continues_beyond(const GreyImage& picture, const RefinedGrid& refined) {
 std::optional<RefinedGrid> refine(const GreyImage& picture, const CornerGrid& rough) {
     RefinedGrid refined{rough, {}, 0, 0};
     std::vector<std::optional<CornerFit>> fits(rough.pixels.size());
-    // Twice: the second time from corners that are already good, so that circles and directions
-    // come from true edges.
+    // The second pass starts from accurate corners, so that its circles and directions follow the
+    // true edges.
     for (int pass = 0; pass < 2; ++pass) {
         const CornerGrid start = refined.grid;
         std::vector<double> contrasts, blurs;
@@ -115,8 +116,8 @@ std::optional<RefinedGrid> refine(const GreyImage& picture, const CornerGrid& ro
             }
         refined.blur_px = median(blurs);
         refined.contrast = median(contrasts);
-        // A finger or a highlight leaves something that can be fitted, but neither as black and
-        // white as the rest nor as well.
+        // A finger or a highlight can be fitted too, but with less contrast and a larger residual
+        // than the other corners.
         refined.measured.assign(fits.size(), false);
         for (std::size_t i = 0; i < fits.size(); ++i) {
             if (!fits[i] || fits[i]->contrast < 0.3 * refined.contrast ||
@@ -132,7 +133,7 @@ std::optional<RefinedGrid> refine(const GreyImage& picture, const CornerGrid& ro
     return refined;
 }
 
-/// Of the area between the outer corners of the grid.
+/// Burnt-out share of the area between the outer corners of the grid.
 double burnt_out_share_of(const GreyImage& picture, const CornerGrid& grid) {
     const int right = grid.columns - 1, bottom = grid.rows - 1;
     return burnt_out_share(
@@ -190,7 +191,7 @@ BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& patt
 }
 
 std::optional<BoardPattern> find_other_size(const GreyImage& picture, const BoardPattern& pattern) {
-    // Large pictures are searched smaller: the count of squares is wanted, not their places.
+    // The search needs only the number of squares, so that a reduced image is enough.
     const double scale = std::min(1.0, 800.0 / picture.cols);
     GreyImage small = picture;
     if (scale < 1) cv::resize(picture, small, {}, scale, scale, cv::INTER_AREA);
@@ -202,8 +203,8 @@ std::optional<BoardPattern> find_other_size(const GreyImage& picture, const Boar
         if (size.height >= 3 && !same && std::find(sizes.begin(), sizes.end(), size) == sizes.end())
             sizes.push_back(size);
     };
-    // Squares counted instead of corners, one of the sides miscounted, and the boards in common
-    // use.
+    // Common mistakes (counting squares instead of corners, one side miscounted), then common
+    // boards.
     add(pattern.columns - 1, pattern.rows - 1);
     for (const int d : {1, -1, 2, -2}) {
         add(pattern.columns + d, pattern.rows);

@@ -8,18 +8,18 @@
 
 namespace vantage {
 
-/// Finds a whole chessboard and fits every corner to sub-pixel accuracy (fit_corner). Corners are
-/// numbered in the board's frame seen from the front; where the colours of the squares allow it
-/// (columns + rows odd) the numbering is the same from every side. A board of another size in the
-/// picture is recognised and named.
+/// Finds a completely visible chessboard and measures every corner to sub-pixel accuracy
+/// (fit_corner). Corners are numbered in the board's frame as seen from the front. If the colours
+/// of the squares allow it (columns + rows odd), the numbering is the same from every side. The
+/// reason names a board of another size in the image.
 BoardSighting find_chessboard(const GreyImage& picture, const BoardPattern& pattern);
 
-/// The board of another size that the picture shows, if one of the sizes in use fits; a search that
-/// is worth its time only for a few pictures of a series in which the right size is not found.
+/// Finds a board of another common size in the image; empty if there is none. The search is slow:
+/// use it for a few images of a series without the right size.
 std::optional<BoardPattern> find_other_size(const GreyImage& picture, const BoardPattern& pattern);
 
-/// The same corners numbered from the opposite end: what a board that looks alike when turned half
-/// round may also be.
+/// Numbers the same corners from the opposite end: the second interpretation of a board that looks
+/// the same after half a turn.
 BoardCorners half_turned(const BoardCorners& corners, const BoardPattern& pattern);
 
 /// True if the board looks the same after half a turn.

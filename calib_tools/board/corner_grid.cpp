@@ -92,7 +92,7 @@ CornerGrid canonical(const GreyImage& picture, const CornerGrid& grid) {
 }
 
 CornerGrid without_strays(const CornerGrid& grid) {
-    constexpr double stray_share = 0.4;  // of the distance between corners
+    constexpr double stray_share = 0.4;  // share of the distance between corners
     CornerGrid led = grid;
     for (int r = 0; r < grid.rows; ++r)
         for (int c = 0; c < grid.columns; ++c) {
@@ -103,7 +103,7 @@ CornerGrid without_strays(const CornerGrid& grid) {
                     const int c1 = c + step * dc, r1 = r + step * dr;
                     return c1 >= 0 && r1 >= 0 && c1 < grid.columns && r1 < grid.rows;
                 };
-                // Three of a line tell its foreshortening too.
+                // A third corner on the line also gives its foreshortening.
                 if (!is_there(3)) continue;
                 const Eigen::Vector2d &first = grid.at(c + dc, r + dr),
                                       &second = grid.at(c + 2 * dc, r + 2 * dr),
@@ -132,7 +132,7 @@ double clear_radius_px(const CornerGrid& grid, int column, int row, double share
     const Eigen::Vector2d along_row = (grid.at(c2, row) - p).normalized();
     const Eigen::Vector2d along_column = (grid.at(column, r2) - p).normalized();
     for (const int step : {-1, 1}) {
-        // The next edge is parallel to the other direction: what counts is the distance across it.
+        // The next edge is parallel to the other direction, so that the distance across it counts.
         if (neighbour(column + step, row))
             radius =
                 std::min(radius, std::abs(cross(grid.at(column + step, row) - p, along_column)));

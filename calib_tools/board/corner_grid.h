@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-/// Pixels of a full grid of corners, row by row.
+/// Pixel positions of a full grid of corners, row by row.
 struct CornerGrid {
     int columns = 0, rows = 0;
     std::vector<Eigen::Vector2d> pixels;
@@ -16,30 +16,30 @@ struct CornerGrid {
     const Eigen::Vector2d& at(int column, int row) const {
         return pixels[static_cast<std::size_t>(row * columns + column)];
     }
-    /// Rows become columns; the board's front becomes its back.
+    /// Swaps rows and columns; the board's front becomes its back.
     CornerGrid transposed() const;
-    /// Every row from its other end; the board's front becomes its back.
+    /// Reverses every row; the board's front becomes its back.
     CornerGrid mirrored() const;
-    /// Half a turn in the board's plane.
+    /// Turns the grid by 180 degrees in the board's plane.
     CornerGrid half_turned() const;
     /// True if seen from the front (x right, y down on the board, z into it).
     bool seen_from_front() const;
     double median_spacing_px() const;
 };
 
-/// Mean brightness of the squares whose column + row is even, minus that of the others.
+/// Mean brightness of the squares with even column + row, minus that of the other squares.
 double even_square_brightness(const GreyImage& picture, const CornerGrid& grid);
 
-/// The numbering that is the same from every side: seen from the front, even squares black where
-/// the size of the board tells them apart, and then rows that run to the right.
+/// Numbering that is independent of the side the board is seen from: from the front, with black
+/// even squares if the size of the board distinguishes them, and then with rows that run to the
+/// right.
 CornerGrid canonical(const GreyImage& picture, const CornerGrid& grid);
 
-/// A finder may take one crossing for another: a corner to which fewer than half of the lines of
-/// the others lead is put where they lead.
+/// Corrects false crossings: a corner that fewer than half of the lines through other corners
+/// predict is moved to the predicted position.
 CornerGrid without_strays(const CornerGrid& grid);
 
-/// Largest radius around a corner that reaches no other edge than the two that cross there, times
-/// `share`.
+/// Largest radius around a corner that reaches only the two edges crossing there, times `share`.
 double clear_radius_px(const CornerGrid& grid, int column, int row, double share);
 
 }  // namespace vantage

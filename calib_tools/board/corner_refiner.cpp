@@ -13,14 +13,14 @@ namespace {
 constexpr int parameter_count = 9;
 using Parameters = Eigen::Matrix<double, parameter_count, 1>;
 using NormalMatrix = Eigen::Matrix<double, parameter_count, parameter_count>;
-// x, y, edge angles 1 and 2, blur, mean, slope x, slope y, contrast
+// Parameters: x, y, edge angles 1 and 2, blur, mean, slope x, slope y, contrast.
 enum { px, py, angle1, angle2, blur, mean, slope_x, slope_y, contrast };
 
 struct Sample {
     double x, y, value, weight;
 };
 
-/// What all samples share under one set of parameters.
+/// Values that all samples share for one set of parameters.
 struct Edges {
     explicit Edges(const Parameters& p)
         : c1(std::cos(p[angle1])),
@@ -34,7 +34,7 @@ struct Edges {
 double evaluate(const Parameters& p, const Edges& edges, const Sample& s, Parameters* gradient) {
     const double dx = s.x - p[px], dy = s.y - p[py];
     const auto [c1, s1, c2, s2, scale] = edges;
-    // Signed distances from the edges, whose directions are (c, s).
+    // Signed distances from the edges, which have the directions (c, s).
     const double d1 = -s1 * dx + c1 * dy, d2 = -s2 * dx + c2 * dy;
     const double e1 = std::erf(d1 * scale), e2 = std::erf(d2 * scale);
     const double value = p[mean] + p[slope_x] * dx + p[slope_y] * dy + p[contrast] * e1 * e2;
@@ -81,7 +81,8 @@ std::optional<CornerFit> fit_corner(const GreyImage& picture, const Eigen::Vecto
         for (int x = x0; x <= x1; ++x) {
             const double r = std::hypot(x - start.x(), y - start.y());
             if (r > radius_px) continue;
-            // Fades out over the last pixel so that the support does not jump with the start.
+            // The weight fades out over the last pixel, so that the support does not jump with the
+            // start point.
             const double weight = std::min(1.0, radius_px - r + 0.01);
             const double value = picture(y, x);
             samples.push_back({static_cast<double>(x), static_cast<double>(y), value, weight});

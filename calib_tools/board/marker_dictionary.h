@@ -9,21 +9,22 @@
 
 namespace vantage {
 
-/// An ArUco marker found in a picture: corners clockwise from the marker's own upper left.
+/// ArUco marker in an image; its corners are clockwise from the marker's own upper left.
 struct FoundMarker {
     int id = 0;
     cv::Point2f corners[4];
 };
 
-/// One of OpenCV's ArUco dictionaries by its name without "DICT_", such as "4X4_100". Hides the
+/// ArUco dictionary of OpenCV, by its name without "DICT_", e.g. "4X4_100". It hides the API
 /// difference between OpenCV up to 4.6 (contrib) and from 4.7 on (objdetect).
 class MarkerDictionary {
   public:
-    /// Throws Error with the names that there are.
+    /// Throws Error that lists the known names.
     explicit MarkerDictionary(std::string_view name);
 
     int marker_count() const;
-    /// Bits of a marker with its black border: 0 black, 1 white; (bits + 2) squared.
+    /// Bits of a marker with its black border: 0 black, 1 white; the matrix is square with side
+    /// bits + 2.
     cv::Mat1b bits(int id) const;
     std::vector<FoundMarker> find(const GreyImage& picture) const;
 

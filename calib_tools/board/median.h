@@ -5,7 +5,7 @@
 
 namespace vantage {
 
-/// The middle value (the upper one of an even count); 0 for none.
+/// Median (the upper one of an even number of values); 0 for an empty list.
 inline double median(std::vector<double> values) {
     if (values.empty()) return 0;
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

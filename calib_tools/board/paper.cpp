@@ -13,7 +13,7 @@ namespace vantage {
 namespace {
 
 constexpr double mm = 1e-3, least_square_m = 1 * mm;
-/// Two lengths on paper that differ by less are one.
+/// Smallest difference of two lengths on paper.
 constexpr double tolerance_m = 0.01 * mm;
 
 std::string sheet_in_words(const Paper& paper) {

@@ -59,8 +59,8 @@ bool solve_bundle(Bundle& bundle, const BundleOptions& options) {
     solver.function_tolerance = 1e-10;
     solver.parameter_tolerance = 1e-10;
     solver.logging_type = ceres::SILENT;
-    // Boards meet only through cameras and rigs, so they are eliminated first. Ceres orders the
-    // blocks of a group by their addresses, so each group has blocks of one array only.
+    // Boards are connected only through cameras and rigs, so that they are eliminated first. Ceres
+    // orders the blocks of a group by address, so that each group has blocks of one array only.
     enum Group { of_boards, of_faces, of_rigs, of_lenses, of_cameras };
     auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
     const auto add = [&](double* block, int group) {
@@ -74,7 +74,7 @@ bool solve_bundle(Bundle& bundle, const BundleOptions& options) {
         add(problem.camera_pose(i), of_cameras);
     }
     solver.linear_solver_ordering = ordering;
-    // Steps that fail are part of the search; the result is judged by its residuals.
+    // Failed steps are a normal part of the search; the residuals judge the result.
     FLAGS_minloglevel = google::GLOG_FATAL;
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem.problem(), &summary);

@@ -14,13 +14,13 @@
 
 namespace vantage {
 
-// Everything that a calibration knows and wants to know, as one least-squares problem
-// (Triggs et al., "Bundle adjustment - a modern synthesis", 1999): a camera sits on a rig, a rig
-// and a board stand in the world, and a view is what a camera saw of a board. The world may be a
-// rig's own frame.
+// Bundle adjustment: a whole calibration as one least-squares problem (Triggs et al., "Bundle
+// adjustment - a modern synthesis", 1999). A camera sits on a rig, rigs and boards stand in the
+// world, and a view holds the corners of one board in one camera. The world may be a rig's own
+// frame.
 
-/// What an earlier calibration knows of a camera: values and standard deviations. A deviation of 0
-/// says nothing of that value.
+/// Result of an earlier calibration of a camera: values and standard deviations. A deviation of 0
+/// means that the value is not constrained.
 struct CameraPrior {
     CameraModel model;
     std::array<double, 4> focal_and_centre_sigma_px{};  ///< fx, fy, cx, cy
@@ -32,7 +32,8 @@ struct CameraPrior {
 
 struct BundleCamera {
     CameraModel model;
-    const LensFamily* family = nullptr;  ///< which coefficients may be solved; never null
+    const LensFamily* family =
+        nullptr;  ///< determines which coefficients may be solved; never null
     int rig = 0;
     Pose camera_from_rig = Pose::Identity();
     bool solve_lens = true;
@@ -50,7 +51,7 @@ struct BundleBoard {
     bool solve = true;
 };
 
-/// One of several boards that are fixed to each other and carried about as one, such as a cube's.
+/// One of several boards that are fixed to each other, such as those of a cube.
 struct BundleFace {
     Pose board_from_face = Pose::Identity();
     bool solve = false;
@@ -65,37 +66,37 @@ struct Bundle {
     std::vector<BundleCamera> cameras;
     std::vector<BundleRig> rigs;
     std::vector<BundleBoard> boards;
-    /// By BoardCorner::board; none if every board is by itself, and corners are in its own frame.
+    /// Faces by BoardCorner::board. Empty if all boards are separate; corners are then in their
+    /// board's own frame.
     std::vector<BundleFace> faces;
     std::vector<BundleView> views;
-    /// What a corner is trusted to, against which the deviations of priors are weighed.
+    /// Assumed standard deviation of a corner, which sets the weight of the priors.
     double corner_sigma_px = 0.1;
 
-    /// Pixel that the model predicts for a corner of a view, minus the pixel seen; a large value
-    /// where the corner lies behind the camera.
+    /// Predicted minus detected pixel of a corner in a view; a large value if the corner is behind
+    /// the camera.
     Eigen::Vector2d residual_px(const BundleView& view, const BoardCorner& corner) const;
-    /// Root of the mean squared distance over the corners of the view; 0 without corners.
+    /// RMS distance over the corners of a view; 0 without corners.
     double view_rms_px(const BundleView& view) const;
-    /// Over all corners of all views, as OpenCV states it.
+    /// RMS over all corners of all views, as OpenCV defines it.
     double rms_px() const;
     std::size_t corner_count() const;
 };
 
 struct BundleOptions {
-    double huber_px = 0;  ///< residuals beyond this count linearly; 0: plain least squares
+    double huber_px = 0;  ///< larger residuals count linearly; 0: plain least squares
     int max_iterations = 100;
 };
 
-/// Improves every part of the bundle that is marked to be solved, in place, on one thread: sums of
-/// several threads come in another order each time, and the same pictures have to lead to the same
-/// digits. Returns false if the
-/// problem could not be solved (not finite, or no progress from a hopeless start).
+/// Solves for all parts of the bundle that are marked as free, in place. It uses one thread, since
+/// sums of several threads change their order, and the same images must give the same digits.
+/// Returns false if the problem could not be solved (not finite, or no progress from a bad start).
 bool solve_bundle(Bundle& bundle, const BundleOptions& options);
 
-/// Standard deviations (1 sigma) at a solution. Every number is the larger of two estimates: the
-/// usual one, from the Jacobian and the residuals' variance, and one that lets the residuals of a
-/// board's pose be correlated (the sandwich estimator clustered by board), since bent boards and
-/// moving hands err a whole view at a time.
+/// Standard deviations (1 sigma) at a solution. Each is the larger of two estimates: the usual one,
+/// from the Jacobian and the residuals' variance, and the sandwich estimator clustered by board,
+/// which lets the residuals of one board pose be correlated. Bent boards and moving hands cause
+/// errors of a whole view.
 struct BundleUncertainty {
     struct Camera {
         double fx_px = 0, fy_px = 0, cx_px = 0, cy_px = 0;
@@ -109,11 +110,11 @@ struct BundleUncertainty {
     };
     std::vector<Camera> cameras;
     std::vector<Rig> rigs;
-    std::vector<Rig> faces;        ///< about their board's axes
+    std::vector<Rig> faces;        ///< about the axes of their board
     double residual_sigma_px = 0;  ///< of one coordinate of one corner
 };
 
-/// Throws Error if the pictures do not determine every parameter (the normal matrix is singular).
+/// Throws Error if the images do not determine every parameter (the normal matrix is singular).
 BundleUncertainty bundle_uncertainty(const Bundle& bundle);
 
 }  // namespace vantage

@@ -59,7 +59,7 @@ struct CornerResidual {
     }
 };
 
-/// The same where the board is one of several that are fixed to each other.
+/// The same residual for one of several boards that are fixed to each other.
 struct FaceCornerResidual {
     CornerResidual corner;
     const Pose& board_from_face;
@@ -75,11 +75,12 @@ struct FaceCornerResidual {
     }
 };
 
-/// Misses of a camera's parameters from what an earlier calibration found, as many corners' sigma
-/// as they are sigmas of that calibration.
+/// Deviation of a camera's parameters from their prior, weighted so that one sigma of the prior
+/// counts as one sigma of a corner.
 struct PriorResidual {
     std::array<double, lens_parameter_count> lens_mean{}, lens_weight{};
-    std::array<double, 6> pose_offset{}, pose_weight{};  ///< of the present pose from the prior's
+    std::array<double, 6> pose_offset{},
+        pose_weight{};  ///< of the current pose from that of the prior
     static constexpr int count = lens_parameter_count + 6;
 
     template <class T>
@@ -106,7 +107,7 @@ PriorResidual make_prior(const BundleCamera& camera, double corner_sigma_px) {
         r.lens_mean[4 + i] = m.distortion[i];
         r.lens_weight[4 + i] = weight(prior.distortion_sigma[i]);
     }
-    // The poses differ by little, so that their rotation vectors add.
+    // The poses differ by little, so that their rotation vectors can be added.
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(camera.camera_from_rig.linear() *
                                                  prior.camera_from_rig.linear().transpose()));
     const Eigen::Vector3d rotation = turn.angle() * turn.axis();
@@ -130,8 +131,7 @@ Pose changed(const Pose& pose, const BundleProblem::Change& change) {
     const double angle = w.norm();
     Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
     if (angle > 0) turn = Eigen::AngleAxisd(angle, w / angle).toRotationMatrix();
-    // Through a quaternion, so that many small changes do not add up to a matrix that is no
-    // rotation.
+    // Converting through a quaternion keeps the matrix a rotation after many small changes.
     result.linear() = Eigen::Quaterniond(turn * pose.linear()).normalized().toRotationMatrix();
     result.translation() = pose.translation() + Eigen::Vector3d(change[3], change[4], change[5]);
     return result;

@@ -14,8 +14,8 @@
 namespace vantage {
 
 /// The bundle as a Ceres problem. Poses are solved as small changes (rotation vector, translation)
-/// on top of the bundle's own, R = exp(w) R0 and t = t0 + dt, so that uncertainties come out in the
-/// tangent space and no rotation has a singularity.
+/// to those of the bundle, R = exp(w) R0 and t = t0 + dt. Uncertainties are then in the tangent
+/// space, and no rotation has a singularity.
 class BundleProblem {
   public:
     using Change = std::array<double, 6>;
@@ -24,14 +24,14 @@ class BundleProblem {
     BundleProblem(const Bundle& bundle, double huber_px);
 
     ceres::Problem& problem() { return *problem_; }
-    /// The blocks, in the order of the bundle's parts; null where a part occurs in no view.
+    /// Parameter blocks in the order of the bundle's parts; null for a part without views.
     double* lens(std::size_t camera) { return used(lenses_[camera].data()); }
     double* camera_pose(std::size_t camera) { return used(camera_poses_[camera].data()); }
     double* rig_pose(std::size_t rig) { return used(rig_poses_[rig].data()); }
     double* face_pose(std::size_t face) { return used(face_poses_[face].data()); }
     double* board_pose(std::size_t board) { return used(board_poses_[board].data()); }
 
-    /// Residual rows that follow those of the corners: 18 for every camera with a prior.
+    /// Number of residual rows after those of the corners: 18 for every camera with a prior.
     int prior_rows() const { return prior_count_ * (lens_parameter_count + 6); }
 
     /// Writes the solved values into the bundle.
@@ -44,11 +44,11 @@ class BundleProblem {
     std::vector<std::array<double, lens_parameter_count>> lenses_;
     int prior_count_ = 0;
     std::vector<Change> camera_poses_, rig_poses_, face_poses_, board_poses_;
-    std::unique_ptr<ceres::LossFunction> loss_;  ///< of all corners; none: null
+    std::unique_ptr<ceres::LossFunction> loss_;  ///< loss of all corners; null: none
     std::unique_ptr<ceres::Problem> problem_;
 };
 
-/// exp(change) on top of a pose.
+/// Applies exp(change) to a pose.
 Pose changed(const Pose& pose, const BundleProblem::Change& change);
 
 }  // namespace vantage

@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-/// The columns of the Jacobian that one parameter block takes, in the block's own tangent space.
+/// Columns of the Jacobian for one parameter block, in the block's tangent space.
 struct Columns {
     double* block = nullptr;
     int first = 0, count = 0;
@@ -50,11 +50,11 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
     if (!ceres_problem.Evaluate(evaluate, nullptr, &residuals, nullptr, &jacobian))
         fail("the calibration is not finite at its solution: the pictures contradict each other");
 
-    // The boards' poses are eliminated one by one (Schur complement), so that the matrix to invert
-    // stays as small as what the cameras and rigs share.
+    // Eliminates the boards' poses one by one (Schur complement), so that the matrix to invert
+    // covers only the parameters of cameras and rigs.
     Eigen::MatrixXd information = Eigen::MatrixXd::Zero(shared, shared);
     std::vector<Eigen::VectorXd> scores(bundle.boards.size(), Eigen::VectorXd::Zero(shared));
-    // Priors are no measurements of the corners' spread.
+    // Priors do not measure the spread of the corners.
     const std::size_t corner_rows =
         residuals.size() - static_cast<std::size_t>(problem.prior_rows());
     double squares = 0;
@@ -147,8 +147,8 @@ BundleUncertainty bundle_uncertainty(const Bundle& bundle) {
             spread += scores[b] * scores[b].transpose();
             ++clusters;
         }
-    // A solution makes the scores of p shared unknowns vanish in sum: as many views' worth of
-    // spread is lost, which matters while views are few.
+    // At a solution the scores of p shared unknowns sum to zero, which removes as many views' worth
+    // of spread. This matters while there are few views.
     const double correction =
         static_cast<double>(clusters) / std::max(1.0, static_cast<double>(clusters) - 1.0);
     spread = correction * spread + variance * prior_information;

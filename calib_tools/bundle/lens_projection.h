@@ -6,11 +6,11 @@
 
 namespace vantage {
 
-/// fx, fy, cx, cy, then eight distortion coefficients.
+/// Number of lens parameters: fx, fy, cx, cy, then eight distortion coefficients.
 inline constexpr int lens_parameter_count = 12;
 
-/// OpenCV's pinhole (k1 k2 p1 p2 k3 k4 k5 k6) and fisheye (k1 .. k4) projections of a point in
-/// camera coordinates, z > 0, for plain and for differentiated numbers.
+/// Projects a point in camera coordinates, z > 0, with OpenCV's pinhole (k1 k2 p1 p2 k3 k4 k5 k6)
+/// or fisheye (k1 .. k4) model. A template for plain and for automatically differentiated numbers.
 template <class T>
 void project_through_lens(LensModel lens, const T* p, const T& x, const T& y, const T& z,
                           T* pixel) {

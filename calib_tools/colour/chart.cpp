@@ -26,7 +26,7 @@ std::optional<std::vector<ColourPatch>> find_chart(const ColourImage& picture) {
     cv::cvtColor(picture, bgr, cv::COLOR_RGBA2BGR);
     const cv::Ptr<cv::mcc::CCheckerDetector> detector = cv::mcc::CCheckerDetector::create();
     if (!detector->process(bgr, cv::mcc::MCC24, 1)) return std::nullopt;
-    // 72 rows: R, G, B of every patch; column 1 holds the means.
+    // 72 rows: R, G and B of every patch; column 1 holds the means.
     const cv::Mat charts = detector->getBestColorChecker()->getChartsRGB();
     const std::vector<Eigen::Vector3d> truth = chart_colours();
     if (charts.rows != static_cast<int>(3 * truth.size()) || charts.cols < 2) return std::nullopt;

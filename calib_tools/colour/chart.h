@@ -8,11 +8,11 @@
 
 namespace vantage {
 
-/// Colours of the 24 patches of the classic chart (ColorChecker), sRGB, D65, as published for it;
-/// row by row from dark skin to black.
+/// Published sRGB colours (D65) of the 24 patches of the classic ColorChecker, row by row from dark
+/// skin to black.
 std::vector<Eigen::Vector3d> chart_colours();
 
-/// Finds the chart in a picture (OpenCV's mcc) and measures its patches. Empty if there is none.
+/// Finds the chart in an image (OpenCV's mcc) and measures its patches. Empty if there is none.
 std::optional<std::vector<ColourPatch>> find_chart(const ColourImage& picture);
 
 }  // namespace vantage

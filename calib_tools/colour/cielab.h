@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-/// CIE L*a*b* (1976) of linear sRGB, white point D65; template for derivatives. Below the cube
-/// root's range its linear part is used, so that values slightly below 0 have a colour too.
+/// CIE L*a*b* (1976) of linear sRGB with white point D65; a template for derivatives. The linear
+/// part below the range of the cube root also covers values slightly below 0.
 template <class T>
 Eigen::Matrix<T, 3, 1> lab_from_linear(const T& red, const T& green, const T& blue) {
     using std::cbrt;
@@ -21,10 +21,11 @@ Eigen::Matrix<T, 3, 1> lab_from_linear(const T& red, const T& green, const T& bl
     return {T(116) * y - T(16), T(500) * (x - y), T(200) * (y - z)};
 }
 
-/// Of an sRGB-coded colour, 0 to 1.
+/// CIE L*a*b* of a gamma-coded sRGB colour, 0 to 1.
 Eigen::Vector3d lab_from_coded(const Eigen::Vector3d& coded);
 
-/// CIEDE2000 (Sharma, Wu, Dalal 2005): about 1 is the least difference that an eye can tell.
+/// Colour difference CIEDE2000 (Sharma, Wu, Dalal 2005); the eye can just see a difference of about
+/// 1.
 double delta_e_2000(const Eigen::Vector3d& lab_a, const Eigen::Vector3d& lab_b);
 
 }  // namespace vantage

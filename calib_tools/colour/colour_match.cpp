@@ -15,12 +15,12 @@
 namespace vantage {
 namespace {
 
-/// Nine entries of the matrix, row by row, then three logarithms of tones.
+/// Nine entries of the matrix, row by row, then three logarithms of gamma.
 using Parameters = std::array<double, 12>;
 constexpr Parameters no_change{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
 constexpr double darkest = 4.0 / 255, brightest = 250.0 / 255;
 constexpr double huber_lab = 2;
-// So little that it counts only where the samples say nothing, such as of a colour nobody wears.
+// Small enough to count only where there are no samples, as for a colour that nobody wears.
 constexpr double identity_weight = 0.5;
 
 Eigen::Vector3d decode(const Eigen::Vector3d& coded) {
@@ -78,7 +78,7 @@ void solve(ceres::Problem& problem) {
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = 60;
-    options.num_threads = 1;  // the same digits each time
+    options.num_threads = 1;  // gives the same digits every time
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);

@@ -6,13 +6,13 @@
 
 namespace vantage {
 
-/// One surface as two cameras saw it; sRGB-coded, 0 to 1.
+/// Colours of one surface in two cameras, gamma-coded sRGB, 0 to 1.
 struct ColourPair {
     int a = 0, b = 0;
     Eigen::Vector3d a_coded, b_coded;
 };
 
-/// A surface whose colour is known.
+/// Surface with a known colour.
 struct ColourPatch {
     Eigen::Vector3d seen_coded, true_coded;
 };
@@ -27,14 +27,14 @@ struct ColourMatch {
     double delta_e_before = 0, delta_e_after = 0;  ///< mean over all samples
 };
 
-/// Corrections that make the cameras' colours those of camera `reference`, all of them at once:
-/// least squares of differences in CIELAB, with a loss that highlights cannot pull. Cameras that no
-/// chain of pairs ties to the reference keep their colours. Throws Error for fewer than 24 pairs of
-/// a camera that has some.
+/// Solves for colour corrections that match all cameras to camera `reference` at once: least
+/// squares of differences in CIELAB, with a loss that is robust against highlights. Cameras that no
+/// chain of pairs connects to the reference keep their colours. Throws Error for a camera with more
+/// than 0 but fewer than 24 pairs.
 ColourMatch match_colours(int cameras, const std::vector<ColourPair>& pairs, int reference);
 
-/// The correction that brings a chart's patches to their true colours. Patches that are burnt out
-/// or black are left out; throws Error if fewer than 12 are left.
+/// Solves for the correction that gives a chart's patches their true colours. Burnt-out and black
+/// patches are left out. Throws Error if fewer than 12 are left.
 ColourMatch::Camera match_chart(const std::vector<ColourPatch>& patches);
 
 }  // namespace vantage

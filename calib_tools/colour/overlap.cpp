@@ -10,14 +10,14 @@ namespace vantage {
 namespace {
 
 constexpr double edge_share = 0.02, hidden_share = 0.15, same_share = 0.02;
-constexpr int most_texture = 24;  ///< grey levels within 3 x 3 pixels
+constexpr int most_texture = 24;  ///< in grey levels within 3 x 3 pixels
 
 struct Place {
     double depth_m = 0;
     Eigen::Vector3d coded;
 };
 
-/// The mean of 3 x 3 pixels if they are of one smooth, evenly coloured surface.
+/// Mean of 3 x 3 pixels if they belong to one smooth, evenly coloured surface; else empty.
 std::optional<Place> place_at(const OverlapView& view, int x, int y) {
     if (x < 1 || y < 1 || x >= view.colour.cols - 1 || y >= view.colour.rows - 1)
         return std::nullopt;

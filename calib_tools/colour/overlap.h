@@ -9,32 +9,33 @@
 
 namespace vantage {
 
-/// What one rig sees of an instant: a picture with the depth of its pixels.
+/// Image of one rig with the depth of its pixels.
 struct OverlapView {
     std::string name;
     ColourImage colour;
-    DepthImage depth_m;  ///< of the picture's size; 0 = unknown
+    DepthImage depth_m;  ///< of the image's size; 0 = unknown
     Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
     Pose world_from_camera = Pose::Identity();
-    double baseline_m = 0;  ///< 0: depth does not come of stereo
+    double baseline_m = 0;  ///< 0: the depth is not from stereo
 };
 
-/// A surface point of rig a that lies in rig b's picture.
+/// Surface point of rig a that is visible in rig b's image.
 struct OverlapSample {
     int a = 0, b = 0;
     Eigen::Vector2d a_px, b_px;
-    double predicted_m = 0;     ///< depth in b by a's depth
-    double measured_m = 0;      ///< depth in b by b's own
-    double disparity_miss = 0;  ///< the same difference in px of b's disparity; needs its baseline
+    double predicted_m = 0;  ///< depth in b, computed from a's depth
+    double measured_m = 0;   ///< depth in b, measured by b
+    double disparity_miss =
+        0;  ///< the same difference in pixels of b's disparity; needs b's baseline
     ColourPair colours;
 };
 
-/// Samples of all ordered pairs of views, spread evenly over a's picture, at most `most` a pair.
-/// Left out: places near depth edges or with strong texture in either picture, where a fraction of
-/// a pixel decides, and places that b sees something nearer before (by more than 15 %).
+/// Samples of all ordered pairs of views, spread evenly over a's image, at most `most` per pair.
+/// Places near depth edges or with strong texture in either image are left out, since a fraction of
+/// a pixel decides there. Places at which b sees something more than 15 % nearer are left out too.
 std::vector<OverlapSample> overlap_samples(const std::vector<OverlapView>& views, int most);
 
-/// Those whose two depths agree within 2 %, which show one surface for sure.
+/// Samples whose two depths agree within 2 %, so that they certainly show one surface.
 std::vector<ColourPair> same_surface(const std::vector<OverlapSample>& samples);
 
 }  // namespace vantage

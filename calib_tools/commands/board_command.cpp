@@ -28,10 +28,10 @@ struct PrintedBoardOptions {
     bool json = false;
 };
 
-/// Markers that nobody gave a size are this share of a square, to the micrometre.
+/// Default size of a marker: this share of a square, rounded to a micrometre.
 double usual_marker_m(double square_m) { return std::round(0.7e6 * square_m) / 1e6; }
 
-/// The boards to draw: one, or one a face.
+/// Boards to draw: one, or one per face.
 std::vector<BoardPattern> wanted_faces(const PrintedBoardOptions& options,
                                        const std::optional<Paper>& paper) {
     const bool is_cut_out = options.faces > 1;
@@ -61,8 +61,7 @@ std::vector<BoardPattern> wanted_faces(const PrintedBoardOptions& options,
     return faces;
 }
 
-/// Throws Error if a description stands there that says another thing: what somebody measured on
-/// the print would be lost.
+/// Throws Error if the file exists with other values, since it may hold measurements of the print.
 void require_not_measured(const std::string& description, const std::vector<BoardPattern>& faces) {
     if (!std::filesystem::exists(description)) return;
     const std::vector<BoardPattern> there = load_body(description);

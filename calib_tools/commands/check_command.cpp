@@ -23,7 +23,7 @@ struct CheckOptions {
 };
 
 void run(const CheckOptions& options) {
-    // Before the long work, so that a damaged history costs no time.
+    // Read before the long computation, so that a damaged history fails at once.
     const std::vector<PastCheck> past =
         options.history.empty() ? std::vector<PastCheck>{} : load_history(options.history);
     const std::vector<RigSnapshot> rigs =

@@ -35,7 +35,7 @@ struct Result {
     std::vector<ColourMatch::Camera> cameras;
 };
 
-/// Each rig against the chart's true colours.
+/// Matches each rig to the true colours of the chart.
 Result from_charts(const ColourOptions& options) {
     Result result;
     result.reference = "chart";
@@ -62,7 +62,7 @@ Result from_charts(const ColourOptions& options) {
     return result;
 }
 
-/// All rigs against one of them, by the surfaces that two of them see.
+/// Matches all rigs to one of them, by surfaces that two rigs see.
 Result from_overlap(const ColourOptions& options) {
     constexpr int places = 4000;
     Result result;

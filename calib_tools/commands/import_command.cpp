@@ -37,7 +37,7 @@ double metres_per(const std::string& unit) {
 std::vector<FormFile> load_form_files(const std::vector<std::string>& names) {
     std::vector<FormFile> files;
     for (const std::string& name : names) {
-        // COLMAP's model is a folder.
+        // A COLMAP model is a folder.
         if (std::filesystem::is_directory(name)) {
             for (const char* part : {"cameras.txt", "images.txt"})
                 files.push_back(load_form_file(std::filesystem::path(name) / part));

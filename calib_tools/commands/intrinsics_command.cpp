@@ -33,7 +33,7 @@ struct IntrinsicsOptions {
 
 struct SeenSeries {
     std::vector<SeenPicture> pictures;
-    std::string kept;  ///< of a live film, as BoardFilm's
+    std::string kept;  ///< see BoardFilm::kept
 };
 
 SeenSeries look(const IntrinsicsOptions& options, const BoardPattern& pattern) {

@@ -8,12 +8,12 @@
 
 namespace vantage {
 
-/// --lens of the commands that calibrate lenses.
+/// Option --lens of commands that calibrate lenses.
 struct LensOption {
     std::string name = "auto";
 
     void add_to(CLI::App& command);
-    /// Null for `auto`. Throws Error for a name that there is not.
+    /// Null for `auto`. Throws Error for an unknown name.
     const LensFamily* family() const;
 };
 

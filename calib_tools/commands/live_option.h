@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// --live and what belongs to it, of the commands that take pictures from running rigs too.
+/// Option --live and its companions, for commands that can also take images from running rigs.
 struct LiveOption {
     std::string stage_file;
     int views = 40;
@@ -19,23 +19,22 @@ struct LiveOption {
     bool go_on = false;
 
     void add_to(CLI::App& command);
-    /// With --go-on too, for commands that film a board.
+    /// Also adds --go-on, for commands that film a board.
     void add_film_to(CLI::App& command);
     bool given() const { return !stage_file.empty(); }
     FilmOptions film() const { return {static_cast<std::size_t>(views), go_on}; }
-    /// Throws Error as LiveRigs does.
+    /// Throws Error like LiveRigs.
     LiveRigs connect(const std::vector<RigFolder>& rigs, double pictures_per_second = 2) const;
 };
 
-/// The same for commands that film one rig only, whose --rig goes with --live.
+/// The same options for commands that film one rig only, with --rig for --live.
 struct LiveRigOption : LiveOption {
     std::string rig;
 
     void add_to(CLI::App& command);
-    /// Throws Error if no rig was named, and as parse_rig_folders does.
+    /// Throws Error if no rig is given, and like parse_rig_folders().
     RigFolder folder() const;
-    /// The pictures that a film left in the folder, left or right, as a pattern for
-    /// expand_pictures.
+    /// Pattern for expand_pictures() of the images that a film left in the folder, left or right.
     std::string kept_pictures(const std::string& side) const;
 };
 

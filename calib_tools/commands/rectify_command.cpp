@@ -49,7 +49,7 @@ void run(const RectifyOptions& options) {
     const GlInfo gl = GlInfo::query();
     gl.require_vantage_minimum();
     const ShaderLibrary shaders;
-    // Both before either is written: a pair is replaced as a pair.
+    // Both images are computed before either is written, so that a pair is replaced as a whole.
     const ColourImage left = rectify(shaders, calibration, Side::left, raw_left);
     const ColourImage right = rectify(shaders, calibration, Side::right, raw_right);
     write_colour_image(options.out_left, left);

@@ -6,16 +6,16 @@
 
 namespace vantage {
 
-/// A rig's folder on the command line: --rig NAME=FOLDER, or FOLDER alone, whose name it then has.
+/// Folder of a rig on the command line: --rig NAME=FOLDER, or FOLDER alone, which is also the name.
 struct RigFolder {
     std::string name;
     std::filesystem::path folder;
 };
 
-/// The folder's calibration.yaml, or what is named itself where that is a file.
+/// calibration.yaml in the folder, or the path itself if it is a file.
 std::filesystem::path calibration_file_of(const RigFolder& rig);
 
-/// Throws Error for a name that is empty, has a '/', or is given twice.
+/// Throws Error for a name that is empty, contains '/', or is given twice.
 std::vector<RigFolder> parse_rig_folders(const std::vector<std::string>& arguments);
 
 }  // namespace vantage

@@ -8,9 +8,9 @@
 
 namespace vantage {
 
-/// One instant of every rig, from its folder or live from the running stage; a rig's calibration is
-/// its folder's calibration.yaml or, live, the file named itself. A rig that works with another
-/// calibration than that is warned of. Throws Error for what cannot be read and rigs that do not
+/// Takes one snapshot of every rig, from its folder or live from the running stage. A rig's
+/// calibration is calibration.yaml in its folder or, live, the given file. Logs a warning if a rig
+/// works with another calibration. Throws Error for files that cannot be read and rigs that do not
 /// answer.
 std::vector<RigSnapshot> take_snapshots(const std::vector<RigFolder>& rigs, const LiveOption& live,
                                         long long instant);

@@ -33,7 +33,7 @@ struct StageOptions {
     bool json = false;
 };
 
-/// The sightings by instant; pictures of another size than the calibration's are refused.
+/// Board sightings by frame set; images with another size than the calibration are refused.
 std::map<long long, BoardCorners> by_instant(const std::vector<SeenPicture>& pictures,
                                              const std::vector<long long>& numbers,
                                              const StageRig& rig, const CameraModel& camera,
@@ -42,7 +42,7 @@ std::map<long long, BoardCorners> by_instant(const std::vector<SeenPicture>& pic
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const SeenPicture& p = pictures[i];
         if (!p.sighting.found()) {
-            // A rig that does not see the board at an instant is the rule on a wide stage.
+            // On a wide stage most frame sets show the board to some rigs only.
             log_debug("{}: {} {}", rig.name, p.name(), p.sighting.reason);
             continue;
         }
@@ -73,10 +73,10 @@ std::map<long long, BoardCorners> sightings(const std::string& pattern_of_files,
 
 struct LiveFilm {
     long long first_pulse = 0;
-    std::string kept;  ///< as BoardFilm's
+    std::string kept;  ///< see BoardFilm::kept
 };
 
-/// Films the board live and gives every rig what it saw.
+/// Films the board live and gives every rig its sightings.
 LiveFilm film_live(const StageOptions& options, const CalibrationBoards& boards,
                    const std::vector<RigFolder>& folders, std::vector<StageRig>& rigs,
                    StageCalibration& notes) {

@@ -35,7 +35,7 @@ struct StereoOptions {
 struct SeenPairs {
     std::vector<SeenPicture> left, right;
     std::vector<std::filesystem::path> alone;
-    std::string kept;  ///< of a live film, as BoardFilm's
+    std::string kept;  ///< see BoardFilm::kept
 };
 
 SeenPairs pairs_from_files(const StereoOptions& options, const BoardPattern& pattern) {

@@ -24,7 +24,7 @@
 namespace vantage {
 namespace {
 
-/// Often enough that a bar's period of some tenths of a second is seen at all its phases soon.
+/// Fast enough to see a bar with a period of some tenths of a second at all its phases soon.
 constexpr double pictures_per_second = 5;
 
 struct SyncOptions {
@@ -37,7 +37,7 @@ struct SyncOptions {
     bool json = false;
 };
 
-/// What a rig's sensor saw.
+/// Frames of one sensor.
 struct Film {
     std::string rig;
     bool is_left = true;

@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-/// One earlier check: a line of the history file, {"version": 1, "date": ..., "measures": [{"what",
+/// Earlier check: one line of the history file, {"version": 1, "date": ..., "measures": [{"what",
 /// "rigs", "value", "verdict"}]}.
 struct PastCheck {
     struct Value {
@@ -19,17 +19,16 @@ struct PastCheck {
     std::vector<Value> values;
 };
 
-/// Oldest first; none if there is no such file. Throws Error naming file and line for a damaged
-/// one.
+/// Oldest first; empty if there is no such file. Throws Error with file and line if it is damaged.
 std::vector<PastCheck> load_history(const std::filesystem::path& path);
 
-/// The past checks and this one, at most the last 1000, written whole or not at all.
+/// Writes the past checks and this one, at most the last 1000. The file is replaced atomically.
 void append_history(const std::filesystem::path& path, std::vector<PastCheck> past,
                     const PastCheck& present);
 
 PastCheck past_check(const StageHealth& health, const std::string& date);
 
-/// Values of one measure through the past, oldest first.
+/// Past values of one measure, oldest first.
 std::vector<double> values_of(const std::vector<PastCheck>& past, const HealthMeasure& measure);
 
 }  // namespace vantage

@@ -10,10 +10,11 @@ namespace vantage {
 
 nlohmann::json to_json(const StageHealth& health, const std::string& date);
 
-/// For a terminal: a line a measure, then what to do.
+/// Report for a terminal: one line per measure, then the advice.
 std::string describe(const StageHealth& health);
 
-/// Verdicts with units, limits and history; the stage from above; row misses of every rig.
+/// Report as a page: verdicts with units, limits and history; the stage from above; row errors of
+/// every rig.
 HtmlPage health_page(const StageHealth& health, const std::vector<RigSnapshot>& rigs,
                      const std::vector<PastCheck>& past, const std::string& date);
 

@@ -10,7 +10,7 @@ namespace {
 constexpr double rival_share = 0.93;
 constexpr int same_peak_px = 3;
 
-/// Where a parabola through three neighbouring values has its top, -0.5 to 0.5.
+/// Position of the maximum of a parabola through three neighbouring values, -0.5 to 0.5.
 double top_of(float before, float at, float after) {
     const double curve = before - 2.0 * at + after;
     return curve < 0 ? std::clamp(0.5 * (before - after) / curve, -0.5, 0.5) : 0;

@@ -8,9 +8,9 @@
 
 namespace vantage {
 
-/// Where in `area` the patch fits best by normalised correlation: its upper left pixel, to a
-/// fraction of a pixel. Empty for a fit below `fewest`, at the area's border, or with a rival
-/// elsewhere that fits nearly as well and would make it a guess.
+/// Finds the best match of a patch in `area` by normalised correlation. Returns its upper left
+/// pixel, to a fraction of a pixel. Empty if the correlation is below `fewest`, if the match is at
+/// the border, or if another place matches nearly as well.
 std::optional<Eigen::Vector2d> find_patch(const GreyImage& area, const GreyImage& patch,
                                           double fewest);
 

@@ -15,13 +15,14 @@ namespace {
 
 constexpr int half_patch_px = 7, patch_px = 2 * half_patch_px + 1;
 constexpr double good_match = 0.85;
-constexpr double surface_share = 0.04;  ///< a patch is of one surface if its depths differ by less
+constexpr double surface_share =
+    0.04;  ///< a patch is on one surface if its depths differ by less than this share
 constexpr double hidden_share = 0.1;
-constexpr double fewest_known = 0.8;  ///< of a patch's depths
-constexpr int reach_share = 32;       ///< of the picture's width
+constexpr double fewest_known = 0.8;  ///< share of the patch's depths that are known
+constexpr int reach_share = 32;       ///< share of the image width
 
-/// a's picture as b sees the patch around (x, y), by b's depth; empty if part of it is unknown, of
-/// another surface or outside a's picture, or if a sees something nearer.
+/// Renders a's image as b sees the patch around (x, y), with b's depth. Empty if a part of it is
+/// unknown, on another surface or outside a's image, or if a sees something nearer.
 std::optional<GreyImage> patch_from(const OverlapView& a, const GreyImage& a_grey,
                                     const OverlapView& b, const Pose& a_from_b, int x, int y) {
     const float middle_m = b.depth_m(y, x);

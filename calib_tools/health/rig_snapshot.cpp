@@ -15,10 +15,10 @@
 namespace vantage {
 namespace {
 
-constexpr double nearest_m = 0.7;  // what stands nearer to a rig is not on the stage
+constexpr double nearest_m = 0.7;  // nearer surfaces are not on the stage
 constexpr int block_px = 5;
 
-/// Disparities that reach down to nearest_m, as the matcher wants them: a multiple of 16.
+/// Number of disparities down to nearest_m; the matcher needs a multiple of 16.
 int disparity_count(const RectifiedStereo& geometry) {
     const double most = geometry.disparity_px(nearest_m);
     const int limit = std::max(16, geometry.width_px / 3 / 16 * 16);

@@ -9,25 +9,26 @@
 
 namespace vantage {
 
-/// One instant of one rig: its rectified pair and the depth in it.
+/// One rectified image pair of a rig and its depth.
 struct RigSnapshot {
     std::string name;
     StereoCalibration calibration;
     std::string calibration_date;
     ColourImage left, right;  ///< rectified
-    DepthImage depth_m;       ///< of the left one; 0 = unknown
+    DepthImage depth_m;       ///< of the left image; 0 = unknown
 
     OverlapView overlap_view() const;
 };
 
-/// Rectifies a raw pair by the rig's calibration and finds its depth (OpenCV's semi-global
-/// matching, left-right checked). Throws Error for pictures of another size than the calibration's.
+/// Rectifies a raw pair with the rig's calibration and computes its depth (OpenCV's semi-global
+/// matching with a left-right check). Throws Error for images with another size than the
+/// calibration.
 RigSnapshot make_snapshot(const std::string& name, const StereoCalibration& calibration,
                           const ColourImage& raw_left, const ColourImage& raw_right);
 
-/// From a folder with calibration.yaml (placed by `stage`), left*N.png and right*N.png. Of several
-/// pairs the one with this number is taken, or the first for -1. Throws Error naming what is
-/// missing.
+/// Loads a snapshot from a folder with calibration.yaml (placed by `stage`), left*N.png and
+/// right*N.png. `instant` selects the pair with this number, or the first for -1. Throws Error that
+/// names the missing file.
 RigSnapshot load_snapshot(const std::string& name, const std::filesystem::path& folder,
                           long long instant);
 

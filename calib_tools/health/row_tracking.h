@@ -8,16 +8,16 @@
 
 namespace vantage {
 
-/// A feature of the left picture and how far above or below its row the right picture shows it.
+/// Feature of the left image and its vertical offset in the right image.
 struct TrackedRow {
     Eigen::Vector2d left_px;
     double disparity_px = 0;
     double row_miss_px = 0;  ///< right minus left
 };
 
-/// Follows up to `most` corners of the rectified left picture into the right one by normalised
-/// correlation, over all disparities and several rows, to a fraction of a pixel. Features that fit
-/// at several places, or badly, are left out.
+/// Tracks up to `most` corners of the rectified left image in the right one by normalised
+/// correlation, over all disparities and several rows, to a fraction of a pixel. Ambiguous and bad
+/// matches are left out.
 std::vector<TrackedRow> track_rows(const GreyImage& left, const GreyImage& right, int most);
 
 }  // namespace vantage

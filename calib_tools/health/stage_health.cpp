@@ -17,22 +17,22 @@ namespace {
 
 constexpr int features = 400, overlap_places = 3000;
 constexpr int fewest_rows = 20, fewest_overlap = 50;
-// Matching costs start to rise from 0.3 px on; beyond 1 px whole surfaces are lost.
+// Matching errors start to rise at 0.3 px; beyond 1 px whole surfaces are lost.
 constexpr double row_warn_px = 0.3, row_bad_px = 0.8;
-// A matcher errs by several tenths of a pixel here and there, but not over whole fields at once.
+// A matcher may err by several tenths of a pixel in places, but not over whole fields at once.
 constexpr double depth_warn_share = 0.01, matcher_bias_px = 0.3, bad_times_warn = 3;
 constexpr double colour_warn = 2.0, colour_bad = 5.0;
-// Farther apart than this two depths are of two surfaces.
+// Two depths that differ by more belong to two surfaces.
 constexpr double same_surface_share = 0.15;
 constexpr double through_warn_percent = 5;
 constexpr int fields_a_side = 4, fewest_in_field = 8;
-// Patches seen from two sides are found to a few tenths of a pixel; a good stage's calibration is
-// as good as that in small pictures, and in large ones by the angle that a pixel is.
+// Patches seen from two sides are located to a few tenths of a pixel. A good calibration of a stage
+// is as accurate as that in small images; in large ones the angle of a pixel limits it.
 constexpr int fewest_places = 10, fewest_places_in_field = 3;
 constexpr double place_warn_px = 0.5, place_warn_share_of_width = 0.0007;
 
-/// The measure with its verdict: unknown for fewer samples than `fewest`, with the sentence
-/// `too_few`; where it is not good, with the sentence `not_good`.
+/// Sets the verdict of a measure: unknown with the sentence `too_few` for fewer samples than
+/// `fewest`; with the sentence `not_good` if it is not good.
 HealthMeasure judged(HealthMeasure m, int fewest, std::string_view too_few, std::string not_good) {
     if (m.samples < fewest) {
         m.verdict = Verdict::unknown;
@@ -62,8 +62,8 @@ HealthMeasure measure_rows(const RigSnapshot& rig, const std::vector<TrackedRow>
                     rig.name, rms_px));
 }
 
-/// Values by the fields of the picture: noise has no side that it prefers, a rig that was moved
-/// has, though not the same one in every field.
+/// Values grouped by fields of the image. Noise has no preferred sign; a rig that was moved causes
+/// one, though not the same in every field.
 class Fields {
   public:
     explicit Fields(const cv::Size& size) : size_(size) {}
@@ -71,7 +71,7 @@ class Fields {
     void add(const Eigen::Vector2d& pixel, double value) {
         values_[place(pixel.y(), size_.height)][place(pixel.x(), size_.width)].push_back(value);
     }
-    /// The median of every field that holds at least `fewest`.
+    /// Median of every field with at least `fewest` values.
     std::vector<double> medians(std::size_t fewest) const {
         std::vector<double> medians;
         for (const auto& row : values_)
@@ -88,8 +88,8 @@ class Fields {
     std::vector<double> values_[fields_a_side][fields_a_side];
 };
 
-/// Depth differences of two rigs by fields of the picture, against what a matcher's bias makes of
-/// depth in the same fields.
+/// Depth differences of two rigs by fields of the image, compared with the effect of the matcher's
+/// bias on depth in the same fields.
 HealthMeasure measure_depth(const std::string& names, const cv::Size& size,
                             const std::vector<const OverlapSample*>& samples) {
     Fields shares(size), bias_shares(size);
@@ -114,9 +114,9 @@ HealthMeasure measure_depth(const std::string& names, const cv::Size& size,
                               names, apart_percent));
 }
 
-/// How much of what one of two rigs sees the other sees something farther in place of. Nothing
-/// hides what is in front: only a wrong place, or a wrong match, shows a surface that another rig
-/// sees through. Of the two directions the worse one counts.
+/// Share of the surfaces of one rig behind which the other rig sees something farther. A front
+/// surface cannot be hidden: only a wrong pose or a wrong match shows a surface that another rig
+/// sees through. The worse of the two directions counts.
 HealthMeasure measure_through(const std::vector<RigSnapshot>& rigs, int a, int b,
                               const std::vector<OverlapSample>& overlap) {
     const auto name = [&](int rig) { return rigs[static_cast<std::size_t>(rig)].name; };
@@ -144,7 +144,7 @@ HealthMeasure measure_through(const std::vector<RigSnapshot>& rigs, int a, int b
                   "the two rigs see too little of the same surfaces", std::move(sentence));
 }
 
-/// How far features lie beside their epipolar lines, from each of two rigs into the other.
+/// Distances of features from their epipolar lines, from each of two rigs into the other.
 HealthMeasure measure_place(const RigSnapshot& a, const RigSnapshot& b, const std::string& names) {
     std::vector<double> medians;
     int count = 0;
@@ -178,7 +178,7 @@ void measure_pair(const std::vector<RigSnapshot>& rigs, int a, int b, StageHealt
     int coloured = 0;
     for (const OverlapSample& s : health.overlap) {
         if (std::minmax(s.a, s.b) != std::minmax(a, b)) continue;
-        // One way only: what is too near from here is too far from there.
+        // One direction only, since a point too near from here is too far from there.
         if (s.a == a) samples.push_back(&s);
         for (const ColourPair& pair : same_surface({s})) {
             delta_e += delta_e_2000(lab_from_coded(pair.a_coded), lab_from_coded(pair.b_coded));
@@ -199,7 +199,7 @@ void measure_pair(const std::vector<RigSnapshot>& rigs, int a, int b, StageHealt
 
 constexpr std::string_view pair_measures[] = {"depth", "through", "place", "colour"};
 
-/// The rigs that no chain of pairs with a known `what` leads to from the first one.
+/// Rigs that no chain of pairs with a known `what` connects to the first rig.
 std::vector<std::string> not_tied_to_first(const StageHealth& health, std::string_view what) {
     std::vector<std::string> tied{health.rig_names.front()},
         rest(health.rig_names.begin() + 1, health.rig_names.end());

@@ -12,16 +12,16 @@ namespace vantage {
 enum class Verdict { good, warn, bad, unknown };
 std::string_view verdict_name(Verdict verdict);
 
-/// One number about a rig, or about two that see one surface, and what it is worth.
+/// One measure of a rig, or of two rigs that see one surface, with its verdict.
 struct HealthMeasure {
     std::string what;  ///< "rows", "depth", "place", "colour"
     std::string rigs;  ///< "A", or "A-B"
     double value = 0;
     std::string unit;
-    double warn_at = 0, bad_at = 0;  ///< from these values on
+    double warn_at = 0, bad_at = 0;  ///< limits: from these values on
     int samples = 0;
     Verdict verdict = Verdict::unknown;
-    std::string sentence = {};  ///< what it means and what to do, where it is not good
+    std::string sentence = {};  ///< meaning and advice if it is not good
 };
 
 struct StageHealth {
@@ -29,20 +29,22 @@ struct StageHealth {
     std::vector<std::string> rig_names;
     std::vector<std::vector<TrackedRow>> rows;  ///< of every rig
     std::vector<OverlapSample> overlap;
-    /// The worst of all measures; but good only where enough is known for it: the rows of every
-    /// rig, and each measure of two rigs for so many pairs that they tie all rigs together.
+    /// Worst verdict of all measures. The result is good only if enough is known: the rows of every
+    /// rig, and each measure of two rigs for enough pairs to connect all rigs.
     Verdict verdict() const;
-    /// A sentence for each thing that is not known enough; none where the stage can be judged.
+    /// One sentence for everything that is not known well enough; empty if the stage can be judged.
     std::vector<std::string> not_known() const;
-    /// What the measures of this verdict say.
+    /// Sentences of the measures with this verdict.
     std::vector<std::string> sentences_of(Verdict verdict) const;
 };
 
-/// Without any board: rows (RMS, px, of features tracked from the left to the right picture, the
-/// worst tenth left out), depth (RMS over the fields of the picture of the median difference
-/// between two rigs' depths of one surface, % of the depth), place (the same of the distances
-/// of features from their epipolar lines, px) and colour (mean CIEDE2000 of one
-/// surface in two rigs).
+/// Measures the health of a stage without a board.
+/// - rows: vertical offset of features between left and right image (RMS in px without the worst
+///   tenth)
+/// - depth: median difference of two rigs' depths of one surface (RMS over the fields of the
+///   image, % of the depth)
+/// - place: the same for the distances of features from their epipolar lines (px)
+/// - colour: mean CIEDE2000 of one surface in two rigs
 StageHealth check_stage(const std::vector<RigSnapshot>& rigs);
 
 }  // namespace vantage

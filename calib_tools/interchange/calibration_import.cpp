@@ -18,7 +18,7 @@
 namespace vantage {
 namespace {
 
-/// Between these the cameras of a rig stand; a distance beyond them is in another unit.
+/// Plausible range of a rig's baseline; a distance outside it is in another unit.
 constexpr double least_baseline_m = 0.004, most_baseline_m = 3;
 
 std::string names_of(const std::vector<FormCamera>& cameras) {
@@ -38,7 +38,7 @@ const FormCamera& camera_named(const std::vector<FormCamera>& cameras, const std
     fail("there is no camera '{}' for {}: the files have {}", name, option, names_of(cameras));
 }
 
-/// The only camera whose name has this word in it; null: none, or several.
+/// The only camera whose name contains this word; null if there is none or several.
 const FormCamera* only_camera_with(const std::vector<FormCamera>& cameras, const char* word) {
     const FormCamera* found = nullptr;
     for (const FormCamera& camera : cameras) {
@@ -53,7 +53,7 @@ const FormCamera* only_camera_with(const std::vector<FormCamera>& cameras, const
 
 struct ChosenPair {
     FormCamera left, right;
-    Pose right_from_left;  ///< in the file's unit
+    Pose right_from_left;  ///< in the unit of the file
 };
 
 Pose pose_between(const FormCamera& left, const FormCamera& right) {
@@ -66,7 +66,7 @@ Pose pose_between(const FormCamera& left, const FormCamera& right) {
     return *right.camera_from_frame * left.camera_from_frame->inverse();
 }
 
-/// Where the other camera stands in the first one's frame.
+/// Position of the other camera in the first one's frame.
 Eigen::Vector3d place_of(const Pose& other_from_first) {
     return other_from_first.inverse().translation();
 }

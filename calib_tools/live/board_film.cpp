@@ -18,9 +18,9 @@
 namespace vantage {
 namespace {
 
-/// A board that has moved less than this share of the picture's width shows nothing new.
+/// Smallest movement of the board that counts as a new position, as a share of the image width.
 constexpr double new_place_share = 0.04;
-/// The same reason is not said more often than this.
+/// Shortest time before the same reason is logged again.
 constexpr std::chrono::seconds repeat_after{3};
 constexpr int looks_between_size_tests = 5;
 
@@ -28,7 +28,7 @@ std::filesystem::path file_of(const FilmedCamera& camera, std::uint64_t pulse) {
     return camera.folder / fmt::format("{}_{}.png", camera.is_left ? "left" : "right", pulse);
 }
 
-/// The pulses of the camera's pictures in its folder.
+/// Pulses of the images in a camera's folder.
 std::set<std::uint64_t> pulses_in_folder(const FilmedCamera& camera) {
     const std::string side = camera.is_left ? "left_" : "right_";
     std::set<std::uint64_t> pulses;
@@ -58,7 +58,7 @@ void require_empty(const FilmedCamera& camera) {
                 camera.folder.string(), side);
 }
 
-/// The instants that an earlier film left in the folders.
+/// Loads the frame sets that an earlier film left in the folders.
 void take_up(const std::vector<FilmedCamera>& cameras, const CalibrationBoards& boards,
              BoardFilm& film) {
     std::set<std::uint64_t> pulses;
@@ -83,7 +83,7 @@ std::string kept_sentence(const BoardFilm& film, const std::vector<FilmedCamera>
         counted(film.pulses.size(), "instant"), folders, film.pulses.size() == 1 ? "it" : "them");
 }
 
-/// Mean way of the corners that both pictures show; empty if they share too few.
+/// Mean movement of the corners that both images show; empty if they share too few.
 std::optional<double> way_px(const BoardCorners& a, const BoardCorners& b) {
     constexpr int fewest = 4;
     double sum = 0;
@@ -104,7 +104,7 @@ std::optional<double> way_px(const BoardCorners& a, const BoardCorners& b) {
     return sum / count;
 }
 
-/// The board stands where it stood in an instant that is kept, for every camera that sees it.
+/// True if the board is where it was in an earlier kept frame set, for every camera that sees it.
 bool shows_nothing_new(const BoardFilm& film, const std::vector<SeenPicture>& pictures) {
     for (std::size_t k = 0; k < film.pulses.size(); ++k) {
         bool same = true;
@@ -119,7 +119,7 @@ bool shows_nothing_new(const BoardFilm& film, const std::vector<SeenPicture>& pi
     return false;
 }
 
-/// Says each reason when it is new, or again after a while.
+/// Logs a reason when it is new, or again after repeat_after.
 class Notice {
   public:
     void say(const std::string& sentence) {
@@ -141,7 +141,8 @@ std::string joined(const std::vector<std::string>& sentences) {
     return all;
 }
 
-/// Throws Error if two pictures show a chessboard of one other size: then no waiting helps.
+/// Throws Error once two images show a chessboard of the same other size, since waiting does not
+/// help then.
 class OtherBoardWatch {
   public:
     explicit OtherBoardWatch(const CalibrationBoards& boards)
@@ -165,8 +166,8 @@ class OtherBoardWatch {
     std::map<std::pair<int, int>, int> votes_;
 };
 
-/// Films into `film` until nothing is missing, `most` instants are kept, or the program is asked to
-/// stop. Returns the sentence that says which.
+/// Films into `film` until nothing is missing, `most` frame sets are kept, or the program is asked
+/// to stop. Returns a sentence with the reason for the end.
 std::string film_on(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
                     const CalibrationBoards& boards, std::size_t most, const FilmRule& rule,
                     const FilmAdvice& advice, BoardFilm& film) {

@@ -12,47 +12,46 @@
 
 namespace vantage {
 
-/// A sensor whose pictures of the board are wanted.
+/// Camera that films the board.
 struct FilmedCamera {
-    std::size_t rig = 0;  ///< of LiveRigs
+    std::size_t rig = 0;  ///< index in LiveRigs
     bool is_left = true;
-    std::string name;              ///< in sentences: "left", "A left"
-    std::filesystem::path folder;  ///< keeps its pictures as left_PULSE.png or right_PULSE.png
+    std::string name;              ///< name in sentences: "left", "A left"
+    std::filesystem::path folder;  ///< where images are saved as left_PULSE.png or right_PULSE.png
 };
 
-/// What was kept of a live film: for every camera one picture an instant, which may be without a
-/// sighting.
+/// Images kept of a live film: one image per camera and frame set, possibly without a sighting.
 struct BoardFilm {
     std::vector<std::uint64_t> pulses;
-    std::vector<std::vector<SeenPicture>> pictures;  ///< [camera][instant]
-    /// How many instants are kept, where, and how to go on, as the end of a sentence.
+    std::vector<std::vector<SeenPicture>> pictures;  ///< [camera][frame set]
+    /// Sentence ending with the number of frame sets kept, their folder, and how to continue.
     std::string kept;
 };
 
-/// Why an instant cannot be used, as a sentence; empty if it can. The pictures are one of every
-/// camera, judged by blur and glare already.
+/// Returns the reason, as a sentence, why a frame set cannot be used; empty if it can. It gets one
+/// image per camera, already judged for blur and glare.
 using FilmRule = std::function<std::string(const std::vector<SeenPicture>& pictures)>;
 
-/// What is still missing of the film, a sentence each; the film is complete when nothing is.
+/// Returns one sentence for everything that the film still lacks; empty if it is complete.
 using FilmAdvice = std::function<std::vector<std::string>(const BoardFilm& film)>;
 
 struct FilmOptions {
-    std::size_t most = 40;  ///< instants
-    bool go_on = false;     ///< the folders' pictures are those of a film that was ended before
+    std::size_t most = 40;  ///< in frame sets
+    bool go_on = false;     ///< continue an earlier film with the images in the folders
 };
 
-/// Chooses pictures of the board from what running rigs see while somebody moves it: keeps an
-/// instant that the rule takes and whose board stands at a new place, writes its pictures, and says
-/// on the log what is missing or why an instant is no good. Ends when nothing is missing, when
-/// `most` instants are kept, or when the program is asked to stop. Throws Error for folders that
-/// hold pictures already (unless it goes on from them), where rigs fall silent, and if the pictures
-/// show another board; it says then what is kept.
+/// Films the board with running rigs while somebody moves it. It keeps a frame set if `rule`
+/// accepts it and the board is at a new position, writes its images, and logs what is missing or
+/// why a frame set was refused. It ends when nothing is missing, when `most` frame sets are kept,
+/// or when the program is asked to stop. Throws Error if a folder already holds images (unless it
+/// continues from them), if rigs stop sending, and if the images show another board; the message
+/// says what is kept.
 BoardFilm film_board(LiveRigs& rigs, const std::vector<FilmedCamera>& cameras,
                      const CalibrationBoards& boards, const FilmOptions& options,
                      const FilmRule& rule, const FilmAdvice& advice);
 
-/// Does what follows a film; if that throws Error, so does this, saying also what is kept. `kept`
-/// is empty where nothing was filmed.
+/// Runs the action that follows a film. If it throws Error, the new Error also says which images
+/// are kept. `kept` is empty if nothing was filmed.
 template <class Action>
 auto with_kept_film(const std::string& kept, const Action& action) {
     try {
@@ -63,20 +62,21 @@ auto with_kept_film(const std::string& kept, const Action& action) {
     }
 }
 
-/// Every camera has to see the board.
+/// Rule: every camera has to see the board.
 std::string all_see_board(const std::vector<SeenPicture>& pictures);
 
-/// What every camera's lens still needs (coverage, tilt, distance), by a calibration on the way.
+/// Lists what every camera's lens still needs (coverage, tilt, distance), from a provisional
+/// calibration.
 FilmAdvice lens_advice(std::vector<std::string> camera_names);
 
-/// At least two rigs have to see one board or body; cameras 2i and 2i + 1 are of rig i.
+/// Rule: at least two rigs have to see one board or body. Cameras 2i and 2i + 1 belong to rig i.
 FilmRule two_rigs_see_board(const CalibrationBoards& boards);
 
-/// The same, and the first instant has to show the board that lies on the floor: the one that is
-/// named, or, without a name, one board only that is no part of a body.
+/// The same rule; in addition the first frame set has to show the board on the floor: the named
+/// one, or, without a name, exactly one board that belongs to no body.
 FilmRule floor_first(const CalibrationBoards& boards, std::string floor_board);
 
-/// Which rigs are not tied to the others by enough instants yet.
+/// Lists the rigs that too few frame sets connect to the others.
 FilmAdvice tie_advice(const CalibrationBoards& boards, std::vector<std::string> rig_names);
 
 }  // namespace vantage

@@ -13,7 +13,7 @@
 namespace vantage {
 namespace {
 
-/// From so few pictures no lens can be estimated that would tell a board's tilt.
+/// Smallest number of images for a lens estimate that gives the tilt of a board.
 constexpr std::size_t fewest_for_lens = 4;
 
 std::string fault_of(const SeenPicture& picture) {
@@ -106,7 +106,7 @@ FilmAdvice tie_advice(const CalibrationBoards& boards, std::vector<std::string> 
             std::size_t a, b;
         };
         std::vector<Tie> ties;
-        // As the calibration will count: what lies still is seen once, and two rigs have to see the
+        // Counts like the calibration: a board at rest counts once, and two rigs have to see the
         // same board.
         std::vector<StageRig> rigs(count);
         for (std::size_t k = 0; k < film.pulses.size(); ++k)
@@ -132,7 +132,7 @@ FilmAdvice tie_advice(const CalibrationBoards& boards, std::vector<std::string> 
                     tie.shared += share(a, b, static_cast<long long>(k)) ? 1 : 0;
                 ties.push_back(tie);
             }
-        // The strongest ties that reach every rig (Kruskal); the weak ones among them are missing.
+        // Maximum spanning tree of the connections (Kruskal); its weak connections are reported.
         std::stable_sort(ties.begin(), ties.end(),
                          [](const Tie& x, const Tie& y) { return x.shared > y.shared; });
         std::vector<std::size_t> group(count);

@@ -14,7 +14,7 @@ namespace vantage {
 namespace {
 
 constexpr std::chrono::milliseconds look_every(100);
-/// Raw pairs are large and wanted whole: a late one is waited for longer than on air.
+/// Raw pairs are large and must be complete, so that late ones are waited for longer than on air.
 constexpr double latency_budget_ms = 2000;
 
 StageConfig stage_of(const LiveOptions& options) {
@@ -67,7 +67,7 @@ struct LiveRigs::Impl {
         return sentence;
     }
 
-    StopSignal stop;  // before the receiver's threads
+    StopSignal stop;  // constructed before the receiver's threads start
     const LiveOptions options;
     const StageConfig stage;
     StageReceiver receiver;

@@ -14,39 +14,40 @@ namespace vantage {
 
 struct LiveOptions {
     std::filesystem::path stage_file;
-    std::vector<std::string> rigs;   ///< names of those that are asked for pictures
-    double pictures_per_second = 2;  ///< of each rig, at most
+    std::vector<std::string> rigs;   ///< names of the rigs that send images
+    double pictures_per_second = 2;  ///< maximum for each rig
     std::chrono::seconds patience{30};
 };
 
-/// What the sensors of one rig saw, not rectified.
+/// Unrectified images of one rig.
 struct RawPair {
     ColourImage left, right;
-    std::string calibration_id;  ///< that the rig works with; empty: none yet
+    std::string calibration_id;  ///< calibration that the rig uses; empty: none yet
 };
 
-/// One pulse; a pair for every rig, in the order of the options, empty where none came.
+/// Raw pairs of one pulse, one for every rig in the order of the options; empty for a rig that sent
+/// none.
 struct LiveInstant {
     std::uint64_t pulse = 0;
     std::vector<std::optional<RawPair>> pairs;
     bool is_complete() const;
 };
 
-/// Running rigs of a stage, as sources of raw pairs by pulse over the authenticated links that the
-/// host uses too. While it lives, SIGINT and SIGTERM end the film and not the program. Rigs that
-/// are asked for views at the same time go on serving them.
+/// Client of running rigs that receives raw pairs by pulse, over the same authenticated links as
+/// the host. During its lifetime SIGINT and SIGTERM end the film, not the program. Rigs continue to
+/// serve views to hosts at the same time. Use it from one thread.
 class LiveRigs {
   public:
-    /// Throws Error for a stage file that cannot be used and names that it has not.
+    /// Throws Error for an invalid stage file, and for rig names that it does not contain.
     explicit LiveRigs(const LiveOptions& options);
     ~LiveRigs();
 
-    /// The next instant of which any rig's pair came; empty once the program is asked to stop.
-    /// Throws Error, saying what is known of every rig, if none comes for as long as the patience.
+    /// Next pulse with a pair of any rig; empty once the program is asked to stop. Throws Error
+    /// with the state of every rig if none arrives in time.
     std::optional<LiveInstant> next();
 
-    /// The next instant of which every rig's pair came. Throws Error naming the rigs that are
-    /// missing if there is none for as long as the patience.
+    /// Next pulse with a pair of every rig. Throws Error with the missing rigs if none arrives in
+    /// time.
     std::optional<LiveInstant> next_complete();
 
   private:

@@ -25,8 +25,8 @@ double quantile(std::vector<double> values, double share) {
     return *place;
 }
 
-/// The slope of the steepest edges in the contrast of the picture. Noise, which has much fine
-/// detail, hardly adds to edges of tens of grey levels.
+/// Slope of the steepest edges, relative to the contrast of the image. Noise has much fine detail
+/// but hardly changes edges of tens of grey levels.
 double sharpness_of(const GreyImage& grey) {
     constexpr double steepest = 0.999, darkest = 0.001;
     cv::Mat1f right, down;
@@ -52,7 +52,7 @@ void look_at(SeenPicture& picture, const CalibrationBoards& boards, CodeRange ra
     } catch (const Error& error) {
         picture.sighting = {};
         picture.sighting.reason = error.what();
-        // The name stands before the reason anyway.
+        // The sentence already begins with the name.
         const std::string path = picture.path.string() + " ";
         if (picture.sighting.reason.starts_with(path))
             picture.sighting.reason.erase(0, path.size());
@@ -64,7 +64,7 @@ void refuse(SeenPicture& picture, std::string reason) {
     picture.sighting.reason = std::move(reason);
 }
 
-/// Pictures of which the markers do not tell the board's layout have that which others tell.
+/// Gives images whose markers do not tell the board's layout the layout that other images show.
 void settle_layout(std::vector<SeenPicture>& pictures, const CalibrationBoards& boards,
                    const CodeRange& range) {
     if (!boards.is_one_board()) return;
@@ -154,7 +154,7 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
                 try {
                     look_at(pictures[index], boards, codes);
                 } catch (...) {
-                    // A picture the library chokes on must not end the thread pool.
+                    // An exception of the library must not end the thread pool.
                     failures[index] = std::current_exception();
                 }
                 const std::size_t count = ++done;

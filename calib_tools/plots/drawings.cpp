@@ -36,7 +36,7 @@ std::string words(double x, double y, const std::string& text, const char* ancho
         x, y, anchor, colour, escape_markup(text));
 }
 
-/// 1, 2 or 5 times a power of ten, at most `value`.
+/// Largest number of the form 1, 2 or 5 times a power of ten that is at most `value`.
 double round_down(double value) {
     const double power = std::pow(10, std::floor(std::log10(value)));
     return value >= 5 * power ? 5 * power : value >= 2 * power ? 2 * power : power;
@@ -128,10 +128,10 @@ std::string draw_bars(const std::vector<Bar>& bars, const std::string& unit, dou
 
 std::string draw_stage(const std::vector<PlacedRig>& rigs, const std::vector<RigTie>& ties,
                        bool y_is_up) {
-    // Without a floor the world is a camera's own frame, whose y points down: from above is the
-    // same plane.
+    // Without a floor the world is a camera's own frame, whose y points down; the view from above
+    // is the same plane.
     const auto flat = [](const Eigen::Vector3d& p) { return Eigen::Vector2d(p.x(), p.z()); };
-    // Over the origin a floor's world hangs; a camera's world begins there.
+    // A world with a floor is centred on its origin; a camera's world begins there.
     Eigen::Vector2d low = Eigen::Vector2d::Zero(), high = low;
     double reach_m = 1;
     for (const PlacedRig& rig : rigs) {
@@ -143,7 +143,7 @@ std::string draw_stage(const std::vector<PlacedRig>& rigs, const std::vector<Rig
     low.array() -= 0.3 * reach_m + 0.3;
     high.array() += 0.3 * reach_m + 0.3;
     const double scale = drawing_px * 1.3 / std::max(high.x() - low.x(), high.y() - low.y());
-    // Towards the audience is down the page: +z with a floor, the way back with a camera's world.
+    // The audience is at the bottom of the page: +z with a floor, -z in a camera's world.
     const auto page = [&](const Eigen::Vector2d& p) {
         return Eigen::Vector2d((p.x() - low.x()) * scale,
                                (y_is_up ? p.y() - low.y() : high.y() - p.y()) * scale);

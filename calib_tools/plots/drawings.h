@@ -9,18 +9,18 @@
 
 namespace vantage {
 
-// Drawings in SVG, each a complete <svg> element.
+// Drawings in SVG; each function returns a complete <svg> element.
 
-/// A miss at a place of a picture, px.
+/// Error vector at a position of an image, in pixels.
 struct PictureVector {
     Eigen::Vector2d at_px, miss_px;
 };
 
-/// Misses drawn where they are in the picture, all enlarged by one round factor so that the usual
-/// one can be seen; the factor is written beside.
+/// Draws error vectors at their positions, enlarged by one round factor that makes a typical vector
+/// visible; the factor is printed.
 std::string draw_vectors(int width_px, int height_px, const std::vector<PictureVector>& vectors);
 
-/// How many corners fell into each cell of a picture, row by row.
+/// Draws the number of corners in each cell of an image, row by row.
 std::string draw_coverage(int width_px, int height_px, int columns, int rows,
                           const std::vector<int>& counts);
 
@@ -28,7 +28,7 @@ struct Bar {
     std::string name;
     double value = 0;
 };
-/// One bar a name, from the bottom; a dashed line at `usual`, if it is above 0.
+/// Draws one bar per name, from the bottom up, with a dashed line at `usual` if it is above 0.
 std::string draw_bars(const std::vector<Bar>& bars, const std::string& unit, double usual);
 
 struct PlacedRig {
@@ -42,12 +42,13 @@ struct RigTie {
     std::string label;
     bool weak = false;
 };
-/// The stage from above (the plane of the two longest extents where the world has no floor): rigs
-/// with their fields of view, ties between them, circles of uncertainty a hundred times enlarged.
+/// Draws the stage from above (the plane of the two longest extents if the world has no floor):
+/// rigs with their fields of view, connections between them, and circles of uncertainty enlarged a
+/// hundred times.
 std::string draw_stage(const std::vector<PlacedRig>& rigs, const std::vector<RigTie>& ties,
                        bool y_is_up);
 
-/// Values of one measure over time, oldest first, with its limits.
+/// Draws the values of one measure over time, oldest first, with its limits.
 std::string draw_history(const std::vector<double>& values, double warn_at, double bad_at,
                          const std::string& unit);
 

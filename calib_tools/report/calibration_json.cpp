@@ -86,7 +86,7 @@ json to_json(const CameraCalibration& c) {
     json result = common_json(c, {"camera"});
     result["camera"] = camera_json(c.bundle.cameras.front().model, c.uncertainty.cameras.front());
     result["coverage"] = coverage_json(c.bundle, 0);
-    // The numbers that scripts want most stand at the top too.
+    // The numbers that scripts need most are repeated at the top level.
     for (const char* key : {"fx", "fy", "cx", "cy"}) result[key] = result["camera"][key];
     return result;
 }

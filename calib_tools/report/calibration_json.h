@@ -6,8 +6,8 @@
 
 namespace vantage {
 
-// Machine-readable results. Every length in metres, every picture distance in pixels; `sigma` holds
-// standard deviations under the names of what they belong to.
+// Machine-readable results. Lengths are in metres, image distances in pixels; `sigma` holds
+// standard deviations under the names of their values.
 
 nlohmann::json to_json(const CameraCalibration& calibration);
 nlohmann::json to_json(const RigCalibration& calibration);

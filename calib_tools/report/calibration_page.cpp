@@ -11,7 +11,7 @@
 namespace vantage {
 namespace {
 
-// As the documentation gives them: a good fit is a fraction of a pixel, a rig's rows a tenth.
+// The limits of the documentation: a good fit is a fraction of a pixel, row errors are a tenth.
 constexpr double good_rms_px = 0.3, warn_rms_px = 0.8;
 
 using Row = std::vector<HtmlPage::Cell>;

@@ -6,15 +6,15 @@
 
 namespace vantage {
 
-/// The result as a page: quality first, then reprojection vectors, coverage and residual per view
-/// of every camera, parameters with uncertainties, what was refused and what would help.
+/// Result as a page: quality first; then reprojection errors, coverage and residual per view of
+/// every camera; parameters with uncertainties; refused images and advice.
 HtmlPage calibration_page(const CameraCalibration& calibration);
 HtmlPage calibration_page(const RigCalibration& calibration);
 
-/// Reprojection misses of one camera of a bundle.
+/// Reprojection errors of one camera of a bundle.
 std::vector<PictureVector> reprojection_vectors(const Bundle& bundle, int camera);
 
-/// Columns and cells of what was refused, and what would help, as every page shows them.
+/// Adds the refused images and the advice, which all pages show in the same way.
 void add_refusals(HtmlPage& page, const std::vector<Refusal>& rejected,
                   const std::vector<std::string>& advice);
 

@@ -6,12 +6,12 @@
 
 namespace vantage {
 
-/// The result as lines for a person: quality first, then every parameter with its uncertainty, then
-/// what was refused and what would help.
+/// Result as text: quality first, then every parameter with its uncertainty, then refused images
+/// and advice.
 std::string describe(const CameraCalibration& calibration);
 std::string describe(const RigCalibration& calibration);
 
-/// The moment of a calibration for its file: UTC, ISO 8601.
+/// Time of a calibration for its file: UTC, ISO 8601.
 std::string date_now();
 
 }  // namespace vantage

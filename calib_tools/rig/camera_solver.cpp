@@ -15,7 +15,7 @@
 namespace vantage {
 namespace {
 
-/// Fills in every board's pose from the camera alone. Returns false if one cannot be had.
+/// Computes every board's pose from the camera alone. Returns false if one has no solution.
 bool pose_boards(Bundle& bundle) {
     for (const BundleView& view : bundle.views) {
         const std::optional<Pose> pose =
@@ -54,7 +54,7 @@ std::vector<Pose> board_pose_candidates(const CameraModel& camera, const BoardCo
             if (pose.matrix().allFinite() && pose.translation().z() > 0) poses.push_back(pose);
         }
     } catch (const cv::Exception&) {
-        // OpenCV throws for corners in a line.
+        // OpenCV throws if all corners are in a line.
     }
     return poses;
 }
@@ -90,7 +90,7 @@ std::optional<Bundle> solve_camera(const CameraViews& views, const LensFamily& f
         start.cameras[0].model.fx_px = start.cameras[0].model.fy_px =
             relative_focal_length * size_px;
         if (!pose_boards(start)) continue;
-        // The start is rough: a few steps with a wide loss tell which one leads somewhere.
+        // The start is inaccurate; a few steps with a wide loss show whether it converges.
         if (!solve_bundle(start, {.huber_px = 0.01 * size_px, .max_iterations = 15})) continue;
         const double rms = start.rms_px();
         if (std::isfinite(rms) && (!best || rms < best_rms)) {
@@ -99,7 +99,8 @@ std::optional<Bundle> solve_camera(const CameraViews& views, const LensFamily& f
         }
     }
     if (!best) return std::nullopt;
-    // Poses anew from the better lens: a mirrored pose of a small board can be left behind.
+    // Computes the poses again with the better lens, since the mirrored pose of a small board can
+    // persist.
     Bundle again = *best;
     if (pose_boards(again) && solve_robustly(again) && again.rms_px() <= best->rms_px())
         return again;
@@ -135,8 +136,8 @@ std::string implausibility(const CameraModel& camera) {
         camera.cy_px > camera.height_px)
         return fmt::format("a principal point at ({:.0f}, {:.0f}), outside the picture",
                            camera.cx_px, camera.cy_px);
-    // Along every ray from the principal point to the border the picture must go outwards as the
-    // angle grows: a radius that turns back would show one place twice.
+    // Along every ray from the principal point to the border, the distance from it must grow with
+    // the angle; a radius that turns back would show one place twice.
     const std::array<double, lens_parameter_count> lens = [&] {
         std::array<double, lens_parameter_count> p{camera.fx_px, camera.fy_px, camera.cx_px,
                                                    camera.cy_px};
@@ -144,10 +145,10 @@ std::string implausibility(const CameraModel& camera) {
         return p;
     }();
     constexpr int directions = 16, steps = 400;
-    constexpr double max_slope = 3;  // 72 degrees off the axis
+    constexpr double max_slope = 3;  // tangent of 72 degrees off the axis
     std::vector<double> angles;
     for (int d = 0; d < directions; ++d) angles.push_back(2 * std::numbers::pi * d / directions);
-    // The picture reaches farthest out in its corners.
+    // The corners of the image are farthest from the axis.
     for (const double x : {-camera.cx_px, camera.width_px - 1 - camera.cx_px})
         for (const double y : {-camera.cy_px, camera.height_px - 1 - camera.cy_px})
             angles.push_back(std::atan2(y / camera.fy_px, x / camera.fx_px));

@@ -7,20 +7,20 @@
 
 namespace vantage {
 
-/// What is known of a calibration beside its solution.
+/// Facts about a calibration besides its solution.
 struct DoubtEvidence {
-    std::vector<std::string> camera_names;  ///< of the bundle's cameras
+    std::vector<std::string> camera_names;  ///< of the cameras in the bundle
     double held_out_rms_px = 0;             ///< of the chosen lens family
-    double alone_sigma_px = 0;              ///< robust, of each camera solved alone; 0: not known
+    double alone_sigma_px = 0;  ///< robust sigma of each camera solved alone; 0: not known
 };
 
-/// How much worse two cameras fit together than each alone, a sentence with what to do; empty if
-/// they fit alike. Both robust sigmas, px.
+/// Warning, with advice, if two cameras fit worse together than each alone; empty if they do not.
+/// Both arguments are robust sigmas in pixels.
 std::string doubt_together(double together_sigma_px, double alone_sigma_px);
 
-/// Reasons not to trust a calibration that is good enough to be written, a sentence each with what
-/// to do: corners that miss the model, two cameras that fit worse together than alone, parameters
-/// that the pictures hardly determine, lenses or pixels that are unusual. Empty for a sound one.
+/// Warnings about a calibration that is good enough to be written, each with advice: corners that
+/// do not fit the model, cameras that fit worse together than alone, parameters that the images
+/// hardly determine, and unusual lenses or pixels. Empty for a good calibration.
 std::vector<std::string> doubts_of(const Bundle& bundle, const BundleUncertainty& uncertainty,
                                    const DoubtEvidence& evidence);
 

@@ -14,7 +14,7 @@ constexpr double wanted_tilt_deg = 20, wanted_distance_ratio = 1.4;
 constexpr std::size_t wanted_views = 10;
 constexpr double degrees = 180 / std::numbers::pi;
 
-/// The picture in three by three fields; the border of a lens is what distortion needs most.
+/// Fields of the image, three by three; distortion mostly depends on corners near the border.
 constexpr const char* field_names[3][3] = {{"upper left", "top", "upper right"},
                                            {"left side", "middle", "right side"},
                                            {"lower left", "bottom", "lower right"}};

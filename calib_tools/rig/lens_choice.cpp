@@ -13,7 +13,7 @@ namespace {
 constexpr int fold_count = 5;
 constexpr double good_enough = 1.01;
 
-/// The same views with another family, from a solution with a related one.
+/// Solves the same views with another family, starting from the solution of a related one.
 std::optional<Bundle> solve_from(const Bundle& start, const LensFamily& family) {
     Bundle bundle = start;
     BundleCamera& camera = bundle.cameras.front();
@@ -44,7 +44,7 @@ std::optional<HeldOut> hold_out(const Bundle& solved) {
         if (!solve_robustly(kept)) return std::nullopt;
         withheld.cameras.front().model = kept.cameras.front().model;
         withheld.cameras.front().solve_lens = false;
-        // A view that misleads must not decide: its corners count linearly beyond the bulk.
+        // An outlying view must not decide, so that large residuals count linearly.
         if (!solve_robustly(withheld)) return std::nullopt;
         const double limit = 5 * std::max(0.01, robust_sigma_px(withheld));
         for (const BundleView& view : withheld.views)

@@ -29,8 +29,8 @@ Eigen::Vector2d rectify_pixel(const CameraModel& camera, const Eigen::Matrix3d& 
             rectified.f_px * ray.y() / ray.z() + rectified.cy_px};
 }
 
-/// RMS of what one camera sees of a board whose pose another camera gives; the better of the two
-/// poses that a flat board may have there.
+/// RMS error of the corners in one camera, predicted from the board's pose in another camera; for
+/// the better of the two poses that a flat board may have there.
 double predicted_rms_px(const CameraModel& from, const BoardCorners& seen_from,
                         const CameraModel& to, const BoardCorners& seen_to,
                         const Pose& to_from_from) {
@@ -48,7 +48,7 @@ double predicted_rms_px(const CameraModel& from, const BoardCorners& seen_from,
     return best;
 }
 
-/// The corners as a camera that is rotated by 180 degrees would see them.
+/// Corners as a camera rotated by 180 degrees would see them.
 BoardCorners of_half_turned_picture(const BoardCorners& corners, const CameraModel& camera,
                                     bool numbered_anew) {
     BoardCorners turned = corners;
@@ -97,8 +97,8 @@ std::optional<PairStart> start_pair(const Bundle& left, const Bundle& right) {
 std::vector<OutlyingPair> outlying_pairs(const Bundle& left, const Bundle& right,
                                          const PairStart& start, bool looks_alike_half_turned) {
     const CameraModel &l = left.cameras.front().model, &r = right.cameras.front().model;
-    // Pairs of one instant are far below this, whatever the lens; a picture that is turned, or of
-    // another instant, is far above it.
+    // Pairs of one exposure are far below this with any lens; a rotated image, or one of another
+    // exposure, is far above it.
     constexpr double limit_share = 0.04;
     const double limit_px = limit_share * l.width_px;
     const Pose left_from_right = start.right_from_left.inverse();

@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::size_t fewest_views = 3;
 constexpr double max_focal_uncertainty = 0.05;
-/// Beyond this the views do not agree on one rigid rig.
+/// Largest spread of the relative pose over the views of one rigid rig.
 constexpr double max_rotation_spread_rad = 0.05, max_translation_spread = 0.3;
-/// Corners are measured to a tenth of a pixel; a bad but honest webcam reaches a whole one.
+/// Corners are measured to 0.1 px; a bad webcam reaches 1 px.
 constexpr double max_rms_share_of_width = 0.004;
-/// Rectified pictures are turned by half of it.
+/// Rectification rotates each image by half of this.
 constexpr double max_roll_deg = 20;
-/// Where each camera alone fits well, pairs that fit as badly as this are none.
+/// If each camera alone fits well, pairs with this error do not belong together.
 constexpr double max_rms_of_loose_pairs_px = 1;
 
 std::string pair_name(const SeenPicture& left, const SeenPicture& right) {
@@ -92,10 +92,10 @@ std::string contradiction(const RejectedView& view) {
         view.rms_px, view.usual_rms_px);
 }
 
-/// The views as a mirror would show them, numbered as the finder would number them.
+/// The views of a mirrored image, with the corner numbers that detection would give.
 CameraViews mirrored(const CameraViews& views, const BoardPattern& pattern) {
     CameraViews result = views;
-    // Of the two numberings that face the front again, the one that keeps black squares black.
+    // Two numberings face the front again; the one that keeps black squares black is right.
     const bool swap_rows = pattern.columns % 2 == 1 && pattern.rows % 2 == 0;
     for (BoardCorners& corners : result.instants) {
         for (BoardCorner& corner : corners) {
@@ -117,8 +117,8 @@ bool agrees(const PairStart& start) {
                max_translation_spread * start.right_from_left.translation().norm();
 }
 
-/// Moves the right camera's views by some places in the series: what a picture lost at the start of
-/// one series does.
+/// Shifts the right camera's views in the series, as if an image at the start of one series were
+/// missing.
 CameraViews shifted(const CameraViews& views, int by) {
     CameraViews result = views;
     const int count = static_cast<int>(views.instants.size());
@@ -131,7 +131,7 @@ CameraViews shifted(const CameraViews& views, int by) {
     return result;
 }
 
-/// Says, as well as can be found out, why the two series are not of one rig.
+/// Throws Error with the most likely reason why the two series are not of one rig.
 [[noreturn]] void explain_disagreement(const CameraViews& right, const Bundle& left_solved,
                                        const PairStart& start, const BoardPattern& pattern) {
     const LensFamily& family = *left_solved.cameras.front().family;
@@ -160,7 +160,7 @@ CameraViews shifted(const CameraViews& views, int by) {
         start.translation_spread_m, start.rotation_spread_rad * 57.29578, left_solved.views.size());
 }
 
-/// How far one sensor is turned about its axis against the other.
+/// Rotation of one sensor about its optical axis relative to the other.
 double roll_deg(const Pose& right_from_left) {
     const Eigen::Matrix3d& r = right_from_left.linear();
     return std::atan2(r(1, 0) - r(0, 1), r(0, 0) + r(1, 1)) * 180 / std::numbers::pi;
@@ -198,7 +198,7 @@ double chosen_held_out_px(const LensChoice& lenses) {
     return 0;
 }
 
-/// A board that looks alike when turned half round is numbered in the right picture as in the left.
+/// Gives a board that looks the same after half a turn the same numbering in both images.
 void align_numbering(std::vector<SeenPicture>& left, std::vector<SeenPicture>& right,
                      const BoardPattern& pattern) {
     if (pattern.kind != BoardKind::chessboard || !looks_alike_half_turned(pattern)) return;
@@ -213,8 +213,9 @@ void align_numbering(std::vector<SeenPicture>& left, std::vector<SeenPicture>& r
     }
 }
 
-/// Cameras that are toed in have little in common where disparity is 0 at infinity: their rectified
-/// pictures are enlarged until no empty pixel is left. Empty where they are not.
+/// Warning about cameras that are toed in: they share little of their view where disparity is 0 at
+/// infinity, and their rectified images are enlarged until no pixel is empty. Empty if they are
+/// not.
 std::string doubt_rectification(const StereoCalibration& rig) {
     const double scale = static_cast<double>(rig.rectified.width_px) / rig.left.width_px;
     const double enlarged = rig.rectified.f_px / (scale * rig.left.fx_px);
@@ -230,8 +231,8 @@ std::string doubt_rectification(const StereoCalibration& rig) {
         enlarged, apart_deg);
 }
 
-/// Takes the pairs that contradict most others out of the series, each with its reason. Returns
-/// whether there is one.
+/// Removes the pairs that contradict most others from the series, each with its reason. Returns
+/// true if there is one.
 bool leave_out_outlying_pairs(const LensChoice& lenses, const PairStart& start,
                               const BoardPattern& pattern, std::vector<SeenPicture>& left,
                               std::vector<SeenPicture>& right, std::vector<Refusal>& rejected) {
@@ -262,8 +263,7 @@ bool leave_out_outlying_pairs(const LensChoice& lenses, const PairStart& start,
     return !outlying.empty();
 }
 
-/// Counts the pairs that the solution rests on in both pictures, and names those of which too few
-/// corners were left.
+/// Counts the pairs in the solution, and lists those with too few corners left.
 std::size_t name_pairs_without_corners(const Bundle& pair, const CameraViews& given,
                                        const std::vector<RejectedView>& rejected,
                                        RigCalibration& result) {

@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// A picture or pair that was not used, and why, as the rest of a sentence that begins with its
+/// Image or pair that was not used, and the reason, which completes a sentence that begins with its
 /// name.
 struct Refusal {
     std::string name, reason;
@@ -19,28 +19,28 @@ struct Refusal {
 
 struct RigOptions {
     const LensFamily* family = nullptr;  ///< null: chosen by held-out error
-    double alpha = 0;                    ///< of the rectification: 0 only valid pixels, 1 all
-    int rectified_width_px = 0, rectified_height_px = 0;  ///< 0: as the raw pictures
+    double alpha = 0;  ///< of the rectification: 0 keeps only valid pixels, 1 keeps all
+    int rectified_width_px = 0, rectified_height_px = 0;  ///< 0: like the raw images
 };
 
 struct CameraCalibration {
-    Bundle bundle;  ///< camera 0; board i belongs to instant i
+    Bundle bundle;  ///< camera 0; board i belongs to frame set i
     BundleUncertainty uncertainty;
     std::vector<LensTrial> trials;
-    std::vector<std::string> names;  ///< of the instants
+    std::vector<std::string> names;  ///< of the frame sets
     std::vector<Refusal> rejected;
-    std::vector<std::string> doubts;  ///< reasons not to trust it, a sentence each
-    std::vector<std::string> advice;  ///< which pictures would help, a sentence each
+    std::vector<std::string> doubts;  ///< warnings, one sentence each
+    std::vector<std::string> advice;  ///< images that would help, one sentence each
     std::size_t views_given = 0, views_used = 0, corners_left_out = 0;
     PrintedBoard printed;
 };
 
 struct RigCalibration {
     StereoCalibration calibration;
-    Bundle bundle;  ///< camera 0 left, 1 right; board i belongs to instant i
+    Bundle bundle;  ///< camera 0 left, 1 right; board i belongs to frame set i
     BundleUncertainty uncertainty;
     std::vector<LensTrial> trials;
-    std::vector<std::string> names;  ///< of the instants
+    std::vector<std::string> names;  ///< of the frame sets
     std::vector<Refusal> rejected;
     std::vector<std::string> doubts, advice;
     std::size_t views_given = 0, views_used = 0, corners_left_out = 0;
@@ -49,18 +49,18 @@ struct RigCalibration {
     double baseline_m = 0, baseline_sigma_m = 0;
 };
 
-/// One camera from a series of pictures. Throws Error, in one sentence, if they do not make a
-/// calibration that can be trusted.
+/// Calibrates one camera from a series of images. Throws Error, in one sentence, if they do not
+/// give a trustworthy calibration.
 CameraCalibration calibrate_camera(std::vector<SeenPicture> pictures, const BoardPattern& pattern,
                                    const RigOptions& options);
 
-/// A stereo rig from pictures that were taken in pairs; both series in the same order. Throws Error
-/// as calibrate_camera does, and for pairs that cannot be of one rig: swapped or mirrored sides,
-/// pictures that are not of the same instant, one camera given twice, two resolutions.
+/// Calibrates a stereo rig from image pairs; both series have the same order. Throws Error like
+/// calibrate_camera(), and for pairs that cannot be of one rig: swapped or mirrored sides, images
+/// of different exposures, one camera given twice, or two resolutions.
 RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPicture> right,
                              const BoardPattern& pattern, const RigOptions& options);
 
-/// The uncertainties of a rig as its file keeps them.
+/// Uncertainties of a rig in the form that its file stores.
 CalibrationSigma calibration_sigma(const RigCalibration& rig);
 CalibrationSigma::Camera camera_sigma(const BundleUncertainty::Camera& camera);
 

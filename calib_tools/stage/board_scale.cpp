@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t fewest_instants = 3, fewest_corners = 6;
 
-/// Where the two rays come nearest to each other, in the left camera's frame.
+/// Nearest point of the two rays, in the left camera's frame.
 Eigen::Vector3d triangulate(const StereoCalibration& rig, const Eigen::Vector2d& left_px,
                             const Eigen::Vector2d& right_px) {
     const Pose left_from_right = rig.right_from_left.inverse();
@@ -24,7 +24,7 @@ Eigen::Vector3d triangulate(const StereoCalibration& rig, const Eigen::Vector2d&
     return 0.5 * (along[0] * a + left_from_right.translation() + along[1] * b);
 }
 
-/// Of the similarity that carries the described corners to the measured ones (Umeyama, 1991).
+/// Scale of the similarity that maps the described corners to the measured ones (Umeyama, 1991).
 std::optional<double> scale_of(const StereoCalibration& rig, const BoardCorners& left,
                                const BoardCorners& right) {
     std::map<int, Eigen::Vector2d> seen_right;

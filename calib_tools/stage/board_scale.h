@@ -7,10 +7,10 @@
 
 namespace vantage {
 
-/// How large a body's boards are by the rigs' own baselines, as a multiple of their description:
-/// the median over all instants at which a rig saw one with both cameras, of the scale that fits
-/// the triangulated corners best (noise in depth, large far away, does not bias it). Empty for
-/// fewer than three such instants.
+/// Size of a body's boards as measured with the rigs' baselines, relative to their description. It
+/// is the median over all frame sets in which both cameras of a rig saw a board, of the scale that
+/// fits the triangulated corners best; depth noise, which is large far away, does not bias it.
+/// Empty for fewer than three such frame sets.
 std::optional<double> board_scale(const std::vector<StageRig>& rigs, const BoardBody& body);
 
 }  // namespace vantage

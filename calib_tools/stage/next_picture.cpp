@@ -14,10 +14,10 @@ namespace vantage {
 namespace {
 
 constexpr double tilt_rad = 0.45;
-/// Shares of the way from the rigs to the place both look at: near boards are large.
+/// Tried positions on the way from the rigs to the place both look at; near boards appear large.
 constexpr double shares_of_way[] = {0.5, 0.7, 0.9};
 
-/// Where the rigs' views cross: half way between the nearest points of their axes.
+/// Crossing of the rigs' optical axes: the middle between their nearest points.
 std::optional<Eigen::Vector3d> crossing(const Pose& a, const Pose& b) {
     const Eigen::Vector3d axis_a = a.linear().col(2), axis_b = b.linear().col(2);
     Eigen::Matrix<double, 3, 2> axes;
@@ -28,7 +28,7 @@ std::optional<Eigen::Vector3d> crossing(const Pose& a, const Pose& b) {
     return 0.5 * (a.translation() + along[0] * axis_a + b.translation() + along[1] * axis_b);
 }
 
-/// The board with its front to the eye, turned by tilt_rad.
+/// Pose of a board whose front faces the eye, turned by tilt_rad.
 Pose facing(const Eigen::Vector3d& middle, const Eigen::Vector3d& eye, const Eigen::Vector3d& down,
             const BoardPattern& pattern) {
     Pose pose = Pose::Identity();
@@ -40,7 +40,7 @@ Pose facing(const Eigen::Vector3d& middle, const Eigen::Vector3d& eye, const Eig
     return pose;
 }
 
-/// What the camera would see of the whole board; empty if it would not.
+/// Corners of the board in the camera's image; empty unless the whole board is visible.
 BoardCorners seen_by(const Bundle& bundle, int camera, const Pose& world_from_board,
                      const BoardPattern& pattern, int board) {
     const BundleCamera& c = bundle.cameras[static_cast<std::size_t>(camera)];
@@ -58,7 +58,7 @@ BoardCorners seen_by(const Bundle& bundle, int camera, const Pose& world_from_bo
     return corners;
 }
 
-/// The bundle with one more board that both rigs see; empty if they cannot.
+/// Bundle with one more board that both rigs see; empty if they cannot.
 std::optional<Bundle> with_board_before(const Bundle& bundle, std::size_t a, std::size_t b,
                                         const BoardPattern& pattern, int board) {
     const Pose &rig_a = bundle.rigs[a].world_from_rig, &rig_b = bundle.rigs[b].world_from_rig;
@@ -100,7 +100,8 @@ std::optional<NextPicture> most_helpful_picture(const Bundle& bundle, const Bund
             const std::optional<Bundle> more = with_board_before(bundle, a, b, pattern, board);
             if (!more) continue;
             const BundleUncertainty then = bundle_uncertainty(*more);
-            // Corners that fit perfectly would flatter those that are there.
+            // Simulated corners without residuals would lower the noise estimate of the measured
+            // ones.
             const double as_noisy = now.residual_sigma_px / then.residual_sigma_px;
             NextPicture next{a, b, 0, 0, 0};
             double gain = 0;

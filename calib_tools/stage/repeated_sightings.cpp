@@ -9,10 +9,11 @@
 namespace vantage {
 namespace {
 
-/// Corners of a board that lies still wander by noise, far less than this.
+/// Largest movement of a board at rest in the image; noise moves its corners far less.
 constexpr double still_px = 0.5;
 
-/// What every camera sees of one board at one instant; the key is 2 * rig, + 1 for a right camera.
+/// Corners of one board in all cameras of one frame set; the key is 2 * rig, + 1 for a right
+/// camera.
 using BoardInstant = std::map<std::size_t, BoardCorners>;
 
 bool stands_still(const BoardCorners& now, const BoardCorners& before) {
@@ -27,7 +28,7 @@ bool stands_still(const BoardCorners& now, const BoardCorners& before) {
         if (id <= k->id) ++i;
         if (k->id <= id) ++k;
     }
-    // Corners that were hidden then are new.
+    // Corners that were hidden in the earlier frame set are new.
     return shared == now.size() && way_px < still_px * static_cast<double>(shared);
 }
 

@@ -7,10 +7,10 @@
 
 namespace vantage {
 
-/// The rigs without sightings of boards that lay still: a board that every camera sees where the
-/// same camera saw it at one earlier instant tells nothing new, since its corners err as they did
-/// then; counted again and again it would make the stage seem more certain than it is. Of equal
-/// sightings those at the instant `kept` stay, else the first.
+/// Removes repeated sightings of boards at rest. A board that every camera sees at the same
+/// position as in one earlier frame set adds no information, since its corners have the same
+/// errors; counted again it would make the stage seem too certain. Of equal sightings those of the
+/// frame set `kept` stay, else the first.
 std::vector<StageRig> without_repeats(std::vector<StageRig> rigs, std::optional<long long> kept);
 
 }  // namespace vantage

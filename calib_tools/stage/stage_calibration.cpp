@@ -22,7 +22,7 @@ constexpr double weak_sigma_m = 0.002;
 const LensFamily& held_family() { return lens_family("none"); }
 
 void require_described_size(const std::vector<StageRig>& rigs, const CalibrationBoards& boards) {
-    // Noise at the far end of a stage reaches a percent; boards differ by more.
+    // Noise at the far end of a stage reaches 1 %; wrong board sizes differ by more.
     constexpr double most = 0.03;
     for (const BoardBody& body : boards.bodies) {
         const std::optional<double> scale = board_scale(rigs, body);
@@ -37,10 +37,10 @@ void require_described_size(const std::vector<StageRig>& rigs, const Calibration
     }
 }
 
-/// The bundle's boards: a body at an instant.
+/// Boards of the bundle: each is a body in one frame set.
 struct Placements {
     std::vector<StageCalibration::Placement> list;
-    std::map<std::pair<long long, int>, int> index;  ///< by instant and body
+    std::map<std::pair<long long, int>, int> index;  ///< by frame set and body
 };
 
 Placements gather_placements(const StageStart& start) {
@@ -59,8 +59,8 @@ const CalibrationSigma::Camera& sigma_of(const CalibrationSigma& sigma, bool is_
     return is_left ? sigma.left : sigma.right;
 }
 
-/// The family whose free coefficients are those that the rig's own calibration solved; null if the
-/// rig does not know, and its lenses are held.
+/// Family of the coefficients that the rig's own calibration solved for; null if the rig does not
+/// state it, and its lenses are then held fixed.
 const LensFamily* solved_family(const StageRig& rig, bool is_left) {
     if (!rig.sigma) return nullptr;
     const CalibrationSigma::Camera& sigma = sigma_of(*rig.sigma, is_left);
@@ -92,7 +92,7 @@ CameraPrior prior_of(const StageRig& rig, bool is_left) {
     return prior;
 }
 
-/// Of the places that the rigs give a body the one that all of them see best.
+/// Of the poses that the rigs give a body, chooses the one with the smallest error over all rigs.
 void place_bodies(const StageStart& start, const Placements& placements, Bundle& bundle) {
     constexpr double most_px = 50;
     std::vector<std::vector<const BundleView*>> views_of(bundle.boards.size());
@@ -163,9 +163,9 @@ Bundle make_bundle(const std::vector<StageRig>& rigs, const StageStart& start,
     return bundle;
 }
 
-/// Solves with priors that weigh as much as corners of this stage deserve. Corners seem worse than
-/// they are while lenses are held to what the rigs' own calibrations are wrong by, and priors that
-/// are weighed by that would hold too firmly: so the weight is found anew until it stays.
+/// Solves with priors weighted by the spread of the corners. While lenses are held fixed, the
+/// errors of the rigs' own calibrations make corners seem worse than they are, and priors with that
+/// weight would be too strong: the weight is therefore updated until it converges.
 bool solve_weighed(Bundle& bundle, const Bundle& held) {
     constexpr int most_passes = 5;
     constexpr double close_enough = 0.03;
@@ -179,8 +179,8 @@ bool solve_weighed(Bundle& bundle, const Bundle& held) {
     return true;
 }
 
-/// The bundle's board that lies on the floor: flat, seen at that instant, and the only such one or
-/// the one that is named.
+/// Finds the bundle's board on the floor: a flat board in that frame set, either the only one or
+/// the named one.
 int find_floor(const StageStart& start, const StageCalibration& stage, const Floor& floor,
                const std::set<int>& used) {
     const auto is_named = [&](const StageStart::Body& body) { return body.name == floor.board; };
@@ -209,7 +209,8 @@ int find_floor(const StageStart& start, const StageCalibration& stage, const Flo
     return flat.front();
 }
 
-/// y up, the middle of the board at the origin; z of the board points into the floor.
+/// Pose of the floor board in the world: y up, the centre of the board at the origin; z of the
+/// board points into the floor.
 Pose world_from_floor_board(const BoardPattern& pattern) {
     Pose pose = Pose::Identity();
     pose.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
@@ -217,7 +218,7 @@ Pose world_from_floor_board(const BoardPattern& pattern) {
     return pose;
 }
 
-/// Lenses and baseline of rig `index` as the stage's pictures moved them, rectified anew.
+/// Updates lenses and baseline of rig `index` from the stage's solution, and rectifies again.
 void take_refined(const Bundle& bundle, const BundleUncertainty& uncertainty, std::size_t index,
                   double alpha, StageCalibration::Rig& rig) {
     StereoCalibration& c = rig.calibration;
@@ -286,7 +287,7 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& given,
     Bundle bundle = make_bundle(rigs, start, placements);
     std::vector<RejectedView> bad;
     std::size_t corners_left_out = 0;
-    // Lenses are let go once the rigs stand and the corners' own spread is known.
+    // Lenses are freed once the rigs are placed and the corners' own spread is known.
     Bundle held = bundle;
     for (BundleCamera& camera : held.cameras) {
         camera.solve_lens = camera.solve_pose = false;
@@ -345,7 +346,7 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& given,
             stage.ties.push_back({a, b, static_cast<int>(shared.size())});
         }
 
-    // Without a floor the first rig stands level, so that y is up for whoever flies about.
+    // Without a floor the first rig is assumed level, so that y is up for the virtual camera.
     StereoCalibration level = rigs.front().calibration;
     assume_place(level);
     Pose world_from_start = level.world_from_left * bundle.rigs.front().world_from_rig.inverse();

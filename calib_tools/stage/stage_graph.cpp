@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-using Key = std::tuple<std::size_t, long long, int>;  // rig, instant, body
+using Key = std::tuple<std::size_t, long long, int>;  // rig, frame set, body
 
 const BoardCorners& seen_at(const std::map<long long, BoardCorners>& series, long long instant) {
     static const BoardCorners nothing;
@@ -17,7 +17,7 @@ const BoardCorners& seen_at(const std::map<long long, BoardCorners>& series, lon
     return found == series.end() ? nothing : found->second;
 }
 
-/// Mean distance of the corners from where the pose puts them; a corner counts up to 50 px.
+/// Mean distance of the corners from their prediction by the pose; a corner counts at most 50 px.
 double mean_miss_px(const CameraModel& camera, const Pose& camera_from_body,
                     const BoardCorners& corners, const StageStart& start) {
     constexpr double most_px = 50;
@@ -31,7 +31,7 @@ double mean_miss_px(const CameraModel& camera, const Pose& camera_from_body,
     return sum / std::max<double>(1, static_cast<double>(corners.size()));
 }
 
-/// rig_from_body by all that both cameras see of the body.
+/// Computes rig_from_body from all corners of the body in both cameras.
 std::optional<Pose> pose_body(const StageRig& rig, const BoardCorners& left,
                               const BoardCorners& right, const StageStart& start) {
     const StereoCalibration& c = rig.calibration;
@@ -84,8 +84,8 @@ void pose_bodies(const std::vector<StageRig>& rigs, StageStart& start) {
     }
 }
 
-/// Bodies that the set knows as one and whose places on it are not known yet: body_from_other by
-/// every instant at which one rig, or two rigs that stand, saw both.
+/// Joins bodies that belong together but whose relative pose is not known yet. It uses
+/// body_from_other of every frame set in which one rig, or two placed rigs, saw both.
 bool join_bodies(const std::vector<int>& piece_of_body, const std::vector<bool>& standing,
                  StageStart& start) {
     std::map<std::pair<int, int>, std::vector<Pose>> candidates;
@@ -118,7 +118,7 @@ bool join_bodies(const std::vector<int>& piece_of_body, const std::vector<bool>&
     return true;
 }
 
-/// Places the rig that saw most together with a rig that stands.
+/// Places the rig with the most common sightings with a placed rig.
 bool place_rig(std::vector<bool>& standing, StageStart& start) {
     std::map<std::pair<std::size_t, std::size_t>, std::vector<Pose>> candidates;
     for (const auto& [key_a, rig_a_from_body] : start.rig_from_body)
@@ -151,7 +151,8 @@ void require_all_standing(const std::vector<StageRig>& rigs, const std::vector<b
             lost, here);
 }
 
-/// Bodies without boards leave; the first board that was seen most gives a body its frame.
+/// Removes bodies without boards; the first of the boards with the most sightings defines a body's
+/// frame.
 void tidy_bodies(const std::vector<StageRig>& rigs, const CalibrationBoards& boards,
                  StageStart& start) {
     std::vector<int> corners(boards.boards.size(), 0);
@@ -177,7 +178,7 @@ void tidy_bodies(const std::vector<StageRig>& rigs, const CalibrationBoards& boa
         }
         const BoardBody& whole =
             boards.bodies[static_cast<std::size_t>(boards.body_of(body.boards.front()))];
-        // A lone face keeps the name of its own.
+        // A single face keeps its own name.
         body.name = body.boards.size() > 1 ? whole.name : boards.board_name(body.boards.front());
     }
 }

@@ -30,7 +30,7 @@ std::string drawing(const StageCalibration& stage) {
 }  // namespace
 
 HtmlPage stage_page(const StageCalibration& stage) {
-    // A millimetre and a fiftieth of a degree are a pixel of a rig's picture at 4 m.
+    // 1 mm and 0.02 degrees correspond to one pixel of a rig's image at 4 m.
     constexpr double warn_mm = 1, bad_mm = 4, warn_deg = 0.02, bad_deg = 0.1;
     HtmlPage page("Calibration of a stage");
     page.paragraph(date_now());

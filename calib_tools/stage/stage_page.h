@@ -5,8 +5,8 @@
 
 namespace vantage {
 
-/// The result as a page: the stage from above, every rig's place with its uncertainty, ties,
-/// reprojection vectors and residual per instant.
+/// Result as a page: the stage from above, every rig's pose with its uncertainty, connections,
+/// reprojection errors and residual per frame set.
 HtmlPage stage_page(const StageCalibration& stage);
 
 }  // namespace vantage

@@ -10,7 +10,7 @@ namespace vantage {
 
 nlohmann::json to_json(const StageCalibration& stage);
 std::string describe(const StageCalibration& stage);
-/// Which picture would help most, as a sentence; empty if none can be said.
+/// Sentence about the image that would help most; empty if there is none.
 std::string next_picture_sentence(const StageCalibration& stage);
 
 }  // namespace vantage

@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::size_t fewest_in_row = 5;
 constexpr std::size_t most_rows = 6, most_spots = 120;
-/// Changes of at least so many grey levels are looked at, at every one of these thresholds: what
-/// runs together at a low one is apart at a higher one.
+/// Thresholds in grey levels for changes. Spots that merge at a low threshold are separate at a
+/// higher one.
 constexpr int thresholds[] = {20, 40, 70, 110, 150};
 
-/// The largest change of every pixel along the pictures.
+/// Largest change of every pixel over the images.
 GreyImage change_of(const std::vector<GreyImage>& pictures) {
     cv::Mat least = pictures.front().clone(), most = pictures.front().clone();
     for (const cv::Mat& picture : pictures) {
@@ -27,7 +27,7 @@ GreyImage change_of(const std::vector<GreyImage>& pictures) {
     return change;
 }
 
-/// Round and small, at one threshold; the strongest first.
+/// Round, small spots at one threshold, strongest first.
 std::vector<BlinkingSpot> spots_above(const GreyImage& change, int threshold) {
     const double largest_px = change.cols / 12.0;
     cv::Mat1i labels;
@@ -59,7 +59,8 @@ std::vector<BlinkingSpot> spots_above(const GreyImage& change, int threshold) {
     return spots;
 }
 
-/// From two neighbours on in one direction, as far as there are spots where one is to be next.
+/// Extends a row of two neighbouring spots in one direction, while there is a spot at the next
+/// expected position.
 void walk_on(const std::vector<BlinkingSpot>& spots, SpotRow& row) {
     constexpr double tolerance = 0.2, most_growth = 1.15;
     while (true) {
@@ -83,7 +84,7 @@ void walk_on(const std::vector<BlinkingSpot>& spots, SpotRow& row) {
     }
 }
 
-/// How far the spots are from one line, as a share of their distance.
+/// Deviation of the spots from a straight line, as a share of their distance.
 double bend_of(const SpotRow& row) {
     const cv::Point2d way = row.back().centre_px - row.front().centre_px;
     const double length = cv::norm(way), step = length / static_cast<double>(row.size() - 1);

@@ -12,23 +12,24 @@ namespace vantage {
 namespace {
 
 constexpr double ns_a_ms = 1e6;
-/// An LED whose share changes less than this over all exposures says nothing of them.
+/// An LED whose share changes less than this over all exposures gives no information about them.
 constexpr double least_range = 0.12;
-/// An LED is read as on or off where its share goes this far, at least, to both sides of a half.
+/// An LED can be read as on or off if its share differs from 0.5 by at least this much in both
+/// directions.
 constexpr double readable_range = 0.35;
-/// Noise of an LED's light is taken to be this share of its gain, or more: 8-bit pictures, and
-/// light that is not quite linear.
+/// Smallest assumed noise of an LED's light as a share of its gain, for 8-bit images and light that
+/// is not quite linear.
 constexpr double least_noise = 0.003;
 constexpr int looks_beside = 6;
 
-/// The shares of a square wave that exposures of one length see, at least and at most.
+/// Smallest and largest share of a square wave in exposures of one length.
 std::pair<double, double> share_range(double half, double length) {
     const double waves = std::floor(length / (2 * half)), rest = length - waves * 2 * half;
     return {(waves * half + std::max(0.0, rest - half)) / length,
             (waves * half + std::min(rest, half)) / length};
 }
 
-/// One way to explain the light.
+/// One hypothesis that explains the light.
 class Explanation {
   public:
     Explanation(const SyncBar& bar, const LedLight& seen, double length_ms)
@@ -43,8 +44,8 @@ class Explanation {
           centres_(static_cast<std::size_t>(pictures_), 0.0),
           used_(static_cast<std::size_t>(pictures_), true) {}
 
-    /// Dark and gain from the least and most that every LED shows, centres from the code. False if
-    /// fewer than three LEDs can be read as on or off at this length.
+    /// Initialises dark and gain from the extremes of every LED, and the centres from the code.
+    /// Returns false if fewer than three LEDs can be read as on or off at this length.
     bool begin() {
         readable_ = 0;
         for (Eigen::Index k = 0; k < leds_; ++k) {
@@ -59,7 +60,8 @@ class Explanation {
             ++readable_;
         }
         if (readable_ < 3) return false;
-        // Faster ones may have been seen at a few of their phases only: they are taken for average.
+        // Faster LEDs may have been seen at a few of their phases only, so that an average gain is
+        // assumed.
         typical_gain_ = median({gain_.begin(), gain_.begin() + readable_});
         for (Eigen::Index k = readable_; k < leds_; ++k) {
             gain_(k) = typical_gain_;
@@ -69,7 +71,7 @@ class Explanation {
         return true;
     }
 
-    /// Centres, gains and darks in turn, each by the others, at the length as it is.
+    /// Solves for centres, gains and darks in turn, each from the others, with the current length.
     void settle(int rounds, double reach) {
         constexpr double narrower = 0.7;
         for (; rounds > 0; --rounds, reach *= narrower) {
@@ -81,7 +83,8 @@ class Explanation {
         regress();
     }
 
-    /// The length that explains most once all else has settled, within this share of what it is.
+    /// Finds the length, within this relative range, that explains most once everything else has
+    /// converged.
     void fit_length(double within, int rounds, double reach) {
         leave_out_misfits();
         length_ms_ = golden_section(length_ms_ * (1 - within), length_ms_ * (1 + within),
@@ -94,9 +97,9 @@ class Explanation {
         settle(rounds, reach);
     }
 
-    /// Pictures that are explained far worse than most are not asked any more, for now.
+    /// Excludes images that are explained far worse than most, for this iteration.
     void leave_out_misfits() {
-        constexpr double usual_times = 16;  // of squares: four times as far off as usual
+        constexpr double usual_times = 16;  // in squared error: four times the usual deviation
         std::vector<double> costs;
         for (Eigen::Index i = 0; i < pictures_; ++i) costs.push_back(cost(i, centres_[index(i)]));
         const double least = least_noise * typical_gain_;
@@ -104,8 +107,8 @@ class Explanation {
         for (Eigen::Index i = 0; i < pictures_; ++i) used_[index(i)] = costs[index(i)] <= limit;
     }
 
-    /// RMS of what is not explained, as a share of the gain; pictures that are left out count as
-    /// much as this would be if all were as bad.
+    /// RMS of the unexplained light as a share of the gain. Excluded images count as if all were
+    /// that bad.
     double misfit() const {
         constexpr double of_left_out = 0.1;
         double sum = 0;
@@ -123,7 +126,7 @@ class Explanation {
         double sum = 0;
         for (Eigen::Index i = 0; i < pictures_; ++i)
             if (used_[index(i)]) sum += cost(i, centres_[index(i)]);
-        // Of n pictures with m LEDs come n centres, m gains, m darks and a length.
+        // n images with m LEDs have n centres, m gains, m darks and one length.
         const double m = speaking(), n = fit.used;
         const double noise = std::max(least_noise * typical_gain_,
                                       std::sqrt(sum / std::max(1.0, n * m - n - 2 * m - 1)));
@@ -145,7 +148,7 @@ class Explanation {
     double speaking() const {
         return static_cast<double>(std::count(speaks_.begin(), speaks_.end(), true));
     }
-    /// Of squares summed over a picture's LEDs: their mean, in units of the gain.
+    /// Mean over the LEDs of an image, in units of the gain, of a sum of squares.
     double share_of_gain(double squares) const {
         return squares / (speaking() * typical_gain_ * typical_gain_);
     }
@@ -162,18 +165,20 @@ class Explanation {
     }
     double cost(Eigen::Index i, double centre_ms) const { return cost(i, centre_ms, length_ms_); }
 
-    /// The readable LEDs are on or off at the middle of the exposure: a Gray code of as many bits.
+    /// The readable LEDs are on or off at the middle of the exposure and form a Gray code of as
+    /// many bits.
     void read_code(Eigen::Index i) {
         std::uint32_t lit = 0;
         for (Eigen::Index k = 0; k < readable_; ++k)
             lit = 2 * lit + (seen_.light(i, k) > dark_(k) + gain_(k) / 2 ? 1 : 0);
         code_step_ms_ = period_ms() / static_cast<double>(std::uint32_t{1} << readable_);
         const double middle_ms = (SyncBar::step_of(lit) + 0.5) * code_step_ms_;
-        // One LED may be read wrongly, at the edge to a step beside this one.
+        // One LED next to a step may have been misread.
         centres_[index(i)] = best_centre(i, middle_ms, 1.5 * code_step_ms_, 12);
     }
 
-    /// Looks at so many places to each side, then between the best one and its neighbours.
+    /// Tries this number of positions on each side, then refines between the best one and its
+    /// neighbours.
     double best_centre(Eigen::Index i, double around_ms, double reach_ms, int places) const {
         double best_ms = around_ms, least = cost(i, around_ms);
         const double step_ms = reach_ms / places;
@@ -210,10 +215,10 @@ class Explanation {
         return (low + high) / 2;
     }
 
-    /// Dark and gain of every LED, by the shares that the exposures say; where these hardly change,
-    /// a gain like the others'.
+    /// Regression for dark and gain of every LED from the shares of the exposures; where these
+    /// hardly change, the gain is pulled towards the typical one.
     void regress() {
-        constexpr double belief = 1e-4;  // in the typical gain, as a variance of shares
+        constexpr double belief = 1e-4;  // prior for the typical gain, as a variance of shares
         std::vector<double> gains;
         for (Eigen::Index k = 0; k < leds_; ++k) {
             if (!speaks_[index(k)]) continue;
@@ -235,8 +240,8 @@ class Explanation {
         typical_gain_ = median(gains);
     }
 
-    /// The centre lies where the light is explained as well as at the best place, but for the
-    /// noise (one standard deviation, or a stretch in which no LED changes).
+    /// The centre is where the light is explained as well as at the best position, within the noise
+    /// (one standard deviation, or an interval in which no LED changes).
     Exposure exposure(Eigen::Index i, double noise) const {
         const double best = centres_[index(i)];
         const double limit = cost(i, best) + noise * noise;

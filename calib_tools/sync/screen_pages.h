@@ -6,7 +6,8 @@
 
 namespace vantage {
 
-/// screen_bar.html: a page that counts on a screen in place of a bar, 8 spots, a step a refresh.
+/// screen_bar.html: a page that counts on a screen instead of a bar, with 8 spots and one step per
+/// refresh.
 std::span<const EmbeddedText> screen_pages();
 
 }  // namespace vantage

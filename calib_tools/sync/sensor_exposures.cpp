@@ -15,11 +15,12 @@
 namespace vantage {
 namespace {
 
-/// Values from here on may be clipped.
+/// Values of at least this may be clipped.
 constexpr int clipped_value = 250;
-/// More of an LED's light unexplained than this: it is no bar, or not the one that is asked for.
+/// Largest share of an LED's light that may stay unexplained. Above it, the row is not the bar that
+/// was asked for.
 constexpr double most_misfit = 0.05;
-/// Up to here another transfer may explain it.
+/// Up to this misfit, another transfer function may explain the light.
 constexpr double doubtful_misfit = 0.2;
 constexpr double least_used_share = 0.6;
 
@@ -27,7 +28,7 @@ using CodeTable = std::array<double, 256>;
 
 struct Transfer {
     const char* name;
-    CodeTable light;  ///< of every code, 0 to 1
+    CodeTable light;  ///< linear light of every pixel value, 0 to 1
 };
 
 Transfer transfer(const char* name, double (*light_of)(double)) {
@@ -43,10 +44,10 @@ std::vector<Transfer> transfers() {
             transfer("gamma 1.8", [](double code) { return std::pow(code, 1.8); })};
 }
 
-/// The pixels in which an LED's light is measured.
+/// Pixels in which the light of an LED is measured.
 struct LedPixels {
     std::vector<cv::Point> points;
-    bool is_clipped = false;  ///< most were too bright in one picture or another
+    bool is_clipped = false;  ///< most pixels were too bright in some image
 };
 
 LedPixels pixels_of(const BlinkingSpot& spot, double apart_px,
@@ -86,7 +87,7 @@ LedLight light_of(const std::vector<LedPixels>& leds, const std::vector<int>& nu
     return seen;
 }
 
-/// A row of spots taken for the bar's slowest LEDs, the slowest first.
+/// Row of spots interpreted as the bar's slowest LEDs, slowest first.
 struct Reading {
     SpotRow row;
     SensorExposures exposures;
@@ -118,10 +119,10 @@ bool explains(const ExposureFit& fit, std::size_t pictures) {
     return fit.misfit < most_misfit && fit.used >= least_used_share * static_cast<double>(pictures);
 }
 
-/// Most exposures are as far apart on the bar as their pulses are in time.
+/// True if most exposures are as far apart on the bar as their pulses are in time.
 bool goes_with_pulses(const ExposureFit& fit, const BarFilm& film, const SyncBar& bar,
                       double rate_hz) {
-    constexpr double tolerance = 1.0 / 16;  // of the period: a bar's clock may be another one
+    constexpr double tolerance = 1.0 / 16;  // share of the period; the bar may run on another clock
     const double period_ms = to_ms(bar.period());
     std::vector<double> lags_ms;
     for (std::size_t i = 0; i < film.pulses.size(); ++i)
@@ -140,7 +141,7 @@ bool goes_with_pulses(const ExposureFit& fit, const BarFilm& film, const SyncBar
     });
 }
 
-/// The widest part of an LED's wave, as a share of it, in which no picture that was used came.
+/// Widest gap in an LED's wave without a used image, as a share of the wave.
 double widest_gap(const ExposureFit& fit, const BarFilm& film, double wave_ms, double rate_hz) {
     std::vector<double> phases;
     for (std::size_t i = 0; i < film.pulses.size(); ++i)
@@ -154,8 +155,8 @@ double widest_gap(const ExposureFit& fit, const BarFilm& film, double wave_ms, d
     return gap;
 }
 
-/// Where pictures come at few phases of the LEDs that tell an exposure's ends, no more is known of
-/// it than the half wave of the slowest of these.
+/// Increases the sigmas if the images cover few phases of the LEDs that give an exposure's ends:
+/// the uncertainty is then half a wave of the slowest of these LEDs.
 void doubt_missed_phases(SensorExposures& seen, const BarFilm& film, const SyncBar& bar,
                          double rate_hz) {
     constexpr double most_gap = 0.24;  // four phases are too few
@@ -171,7 +172,7 @@ void doubt_missed_phases(SensorExposures& seen, const BarFilm& film, const SyncB
     }
 }
 
-/// Either end of the row may be the slow one; and beyond it may be a spot that is no LED.
+/// Either end of the row may be the slow one, and a spot beyond the end may not be an LED.
 std::vector<SpotRow> ways_to_read(const SpotRow& row, const SyncBar& bar) {
     constexpr std::size_t most_strangers = 1;
     std::vector<SpotRow> ways;
@@ -187,8 +188,8 @@ std::vector<SpotRow> ways_to_read(const SpotRow& row, const SyncBar& bar) {
     return ways;
 }
 
-/// The row with the faster LEDs that blink too little to be found by it, or before which something
-/// passed: they are where the row goes on.
+/// Extends the row by the faster LEDs that blink too little to be detected or were covered, at the
+/// positions where the row continues.
 SpotRow extended(SpotRow row, const SyncBar& bar) {
     constexpr std::size_t over = 3;
     const cv::Point2d step =
@@ -198,15 +199,14 @@ SpotRow extended(SpotRow row, const SyncBar& bar) {
     return row;
 }
 
-/// Why nothing can be read.
+/// Reason why nothing can be read.
 struct Hindrance {
     bool is_clipped = false;
-    bool counts_otherwise =
-        false;  ///< something looks like the bar and does not go with the pulses
+    bool counts_otherwise = false;  ///< a row looks like the bar but does not follow the pulses
 };
 
-/// The longest row that can be read: parts of it, such as every second LED, may fit some exposures
-/// by chance.
+/// Reads the longest possible row: parts of it, such as every second LED, may fit some exposures by
+/// chance.
 std::optional<Reading> read_longest(const std::vector<SpotRow>& rows, const BarFilm& film,
                                     const SyncBar& bar, double rate_hz, Hindrance& hindrance) {
     const std::vector<Transfer> codes = transfers();

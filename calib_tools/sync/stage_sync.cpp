@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-/// How much later one exposure was than another at one pulse.
+/// Difference of two sensors' exposures at one pulse.
 struct Difference {
     double skew_ms = 0, sigma_ms = 0;
     bool is_resolved = false;
@@ -37,7 +37,7 @@ std::vector<Difference> differences(const SensorFilm& film, const SensorFilm& re
     return all;
 }
 
-/// Their median on the ring of the bar's period: around the one that is nearest to all others.
+/// Circular median over the bar's period, around the difference that is nearest to all others.
 double median_on_ring(const std::vector<Difference>& all, double period_ms) {
     double best_ms = 0, least = INFINITY;
     for (const Difference& candidate : all) {
@@ -65,8 +65,8 @@ void combine(const std::vector<Difference>& all, double period_ms, double pulse_
         near.push_back({usual_ms + way_ms, each.sigma_ms, each.is_resolved});
         ways_ms.push_back(std::abs(way_ms));
     }
-    // Exposures in which no LED changed are known to lie between two changes, and no number of them
-    // says more; they count only where there is nothing better.
+    // Exposures without an LED change are known only to lie between two changes, whatever their
+    // number; they count only if there is nothing better.
     const auto resolved = std::partition(near.begin(), near.end(),
                                          [](const Difference& each) { return each.is_resolved; });
     const bool is_resolved = resolved - near.begin() >= fewest_pictures / 2;
@@ -102,7 +102,7 @@ std::string apart_words(int pulses, double skew_ms) {
                        pulses > 0 ? "behind" : "ahead of", skew_ms);
 }
 
-/// The two sensors of a rig, where there are both.
+/// The two sensors of a rig, if both exist.
 struct RigPair {
     const SensorSkew *left = nullptr, *right = nullptr;
 };

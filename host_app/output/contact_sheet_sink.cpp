@@ -18,7 +18,7 @@ SheetMoment row_of(const Moment& moment, std::size_t row) {
     for (const FrameSet::Slot& slot : moment.set->slots)
         if (slot.frame && slot.frame->has_pictures()) frames.push_back(slot.frame.get());
     if (frames.empty()) return stills;
-    // Every row shows another rig.
+    // Each row shows another rig.
     const RigFrame& frame = *frames[row % frames.size()];
     stills.stills.push_back({frame.colour, fmt::format("{}: colour", frame.rig)});
     stills.stills.push_back(

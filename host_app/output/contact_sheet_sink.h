@@ -7,7 +7,8 @@
 
 namespace vantage {
 
-/// Stills of the whole flight on one sheet: the virtual view, and one rig's colour and disparity.
+/// Output that saves stills of the whole flight as one contact sheet: the virtual view, and the
+/// colour and disparity of one rig.
 class ContactSheetSink final : public PictureSink {
   public:
     explicit ContactSheetSink(std::filesystem::path path);

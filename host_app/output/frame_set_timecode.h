@@ -8,16 +8,17 @@
 
 namespace vantage {
 
-/// Of the clock of the rigs in the set, ahead of UTC (see TimecodeClock); nothing: none is in it.
+/// Offset of the rigs' clock from UTC in seconds (see TimecodeClock); empty if the frame set has no
+/// rig.
 std::optional<int> tai_offset_s_of(const FrameSet& set);
 
-/// Gives sets of frames the house's time of day. `rate_hz` is that of what is counted: of the
-/// pulses on the screen, of the film in a film.
+/// Computes the house time code of frame sets. `rate_hz` is the rate that the code counts: the
+/// pulse rate on the screen, the film's rate in a film.
 class SetTimecode {
   public:
     SetTimecode(double pulse_rate_hz, double rate_hz) : pulses_(pulse_rate_hz), clock_(rate_hz) {}
 
-    /// Empty for a set that no rig is in.
+    /// Returns an empty text for a frame set without rigs.
     std::string of(const FrameSet& set) const;
 
   private:

@@ -10,26 +10,26 @@
 
 namespace vantage {
 
-/// What was seen at one moment of a flight.
+/// Image of the virtual camera and its frame set at one moment of a flight.
 struct Moment {
     std::string title;
     ColourImage picture;                  ///< of the virtual camera
-    std::shared_ptr<const FrameSet> set;  ///< that it was made from
+    std::shared_ptr<const FrameSet> set;  ///< the frame set that it was rendered from
 };
 
-/// Picks moments evenly over a flight whose length nobody knows yet, within bounded memory: it
-/// keeps every 1st, then every 2nd, every 4th ... picture.
+/// Selects moments evenly over a flight of unknown length in bounded memory: it keeps every frame,
+/// then every 2nd, every 4th and so on.
 class MomentCollector {
   public:
     /// Precondition: wanted >= 2.
     explicit MomentCollector(std::size_t wanted) : wanted_(wanted) {}
 
-    /// Pictures are counted from 0.
+    /// Frames count from 0.
     bool wants(std::uint64_t picture) const { return picture % stride_ == 0; }
-    /// Precondition: wants(picture), and all wanted ones before it were added.
+    /// Precondition: wants(picture) is true, and all earlier wanted frames were added.
     void add(Moment moment);
 
-    /// At most `wanted` moments, evenly spread, the first and the newest one kept included.
+    /// At most `wanted` moments, evenly spaced, including the first and the newest one kept.
     std::vector<Moment> chosen() const;
 
   private:

@@ -11,17 +11,18 @@
 namespace vantage {
 namespace {
 
-/// Rides out a stutter of encoder, disk or peer; at 1280x720 a picture is 3.7 MB, shared by
-/// outputs.
+/// Queue length in frames. It covers a stall of encoder, disk or peer; a frame of 1280x720 takes
+/// 3.7 MB, which outputs share.
 constexpr std::size_t most_waiting = 8;
-/// One number of time code counts several pictures above, and a reader would be told a wrong time.
+/// Highest rate with a time code. Above it, one code counts several frames, and a reader would get
+/// a wrong time.
 constexpr double most_numbers_a_second = 60;
-/// Between two tries of a stream that fails: the first time, and the most.
+/// Pause before a failed stream is tried again: the first and the longest one.
 constexpr std::chrono::milliseconds first_rest{500}, longest_rest{10'000};
-/// That a peer has to take what waits when an output ends.
+/// Time for a peer to take the waiting frames when an output ends.
 constexpr std::chrono::seconds last_words{2};
 constexpr std::chrono::milliseconds look_period{50};
-/// That sound waits at the most.
+/// Longest sound that waits.
 constexpr double longest_sound_s = 2;
 
 }  // namespace
@@ -69,7 +70,7 @@ void Output::stop() {
     {
         const std::lock_guard lock(mutex_);
         want_no_more();
-        // Who ends what fails has seen that it does.
+        // Whoever stops a failed stream has seen its failure.
         if (plan_.is_stream && state_.phase == OutputPhase::failed) {
             state_.phase = OutputPhase::off;
             state_.failure.clear();
@@ -243,9 +244,9 @@ void Output::note_caller_left() {
 void Output::note_failure(const std::string& sentence) {
     const std::lock_guard lock(mutex_);
     drop_waiting();
-    // Told to end before anybody took it: that is no failure.
+    // A stream that is stopped before it was connected has not failed.
     if (plan_.is_stream && !is_wanted_ && state_.phase != OutputPhase::on) {
-        // One that waits for a caller has got over what kept it from listening.
+        // A stream that waits for a caller is listening, so that its earlier failure is over.
         if (state_.phase == OutputPhase::waiting) state_.failure.clear();
         state_.phase = state_.failure.empty() ? OutputPhase::off : OutputPhase::failed;
         return;

@@ -22,55 +22,56 @@ namespace vantage {
 enum class OutputPhase {
     off,
     opening,
-    waiting,  ///< for somebody who calls
+    waiting,  ///< for a caller
     on,
-    failed,  ///< a stream is tried again
+    failed,  ///< streams are tried again
 };
 
-/// How an output stands. Every picture that it was offered is written, dropped, unheard or queued.
+/// State and counters of an output. Every offered frame is counted as written, dropped, unheard or
+/// queued.
 struct OutputState {
     std::string name;
-    std::string film = {};  ///< its file, where it is one
+    std::string film = {};  ///< path of its file, if it has one
     OutputPhase phase = OutputPhase::off;
-    std::string failure;         ///< why; of a stream that is on again: nothing
-    std::string encoder;         ///< empty: its pictures are not encoded
-    std::uint64_t offered = 0;   ///< pictures, while it was to run
-    std::uint64_t pictures = 0;  ///< written
-    std::uint64_t dropped = 0;   ///< since it was slow, or failed
-    std::uint64_t unheard = 0;   ///< of a stream, while nobody took it
-    std::uint64_t queued = 0;    ///< the one that is being written included
+    std::string failure;         ///< reason; empty for a stream that works again
+    std::string encoder;         ///< empty if frames are not encoded
+    std::uint64_t offered = 0;   ///< frames offered while the output was to run
+    std::uint64_t pictures = 0;  ///< frames written
+    std::uint64_t dropped = 0;   ///< frames lost while the output was slow or had failed
+    std::uint64_t unheard = 0;   ///< frames of a stream while nobody received it
+    std::uint64_t queued = 0;    ///< including the frame that is being written
     bool has_sound = false;
-    std::uint64_t silenced = 0;      ///< ticks whose sound was left out
+    std::uint64_t silenced = 0;      ///< ticks whose sound was dropped
     std::uint64_t bytes = 0;         ///< written
-    std::uint64_t failures = 0;      ///< times that it failed
-    std::uint64_t callers_left = 0;  ///< of one that listens
+    std::uint64_t failures = 0;      ///< number of failures
+    std::uint64_t callers_left = 0;  ///< callers that left a listening output
     double bit_rate_bps = 0;         ///< over the last two seconds
-    Percentiles write_ms;            ///< encoding and writing, a picture
+    Percentiles write_ms;            ///< time to encode and write one frame
 };
 
-/// One output of the programme, on a thread of its own with a short queue, so that neither encoder
-/// nor network nor disk ever holds up a tick. Where it cannot follow, the oldest waiting picture is
-/// left out and counted; the others keep their times. One that fails does so alone; a stream is
-/// tried again, ever later, ten seconds apart at the most.
+/// One output of the programme, on a thread of its own with a short queue, so that encoder, network
+/// and disk never delay a tick. If it cannot follow, the oldest waiting frame is dropped and
+/// counted; the others keep their times. Its failure does not affect other outputs. A stream is
+/// tried again at growing intervals of at most ten seconds.
 class Output {
   public:
-    /// Off. `pulse_rate_hz` is the stage's.
+    /// Creates a stopped output. `pulse_rate_hz` is that of the stage.
     Output(OutputPlan plan, const OutputFormat& format, double pulse_rate_hz);
-    /// Without finish(), a file that is not ended is removed.
+    /// Removes an incomplete file, unless finish() was called.
     ~Output();
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
 
-    /// Never wait; from any thread. What was stopped may be started again; a film goes on in
-    /// another file.
+    /// Start and stop the output. They never wait and may be called on any thread. An output can be
+    /// started again after a stop; a film then continues in another file.
     void start();
     void stop();
-    /// Shares the picture. Never waits, never throws.
+    /// Queues a frame and shares its memory. Never waits, never throws.
     void take(const ProgrammePicture& picture);
-    /// Ends it for good: what waits is written, within two seconds where that takes a peer.
+    /// Ends the output for good. Waiting frames are written, to a peer within two seconds.
     void finish();
 
-    /// Whether it was told to run and not to stop.
+    /// True between start() and stop().
     bool is_wanted() const;
     OutputState state() const;
 
@@ -81,47 +82,48 @@ class Output {
         std::string timecode;
     };
     void run();
-    /// From opening to its end or failure.
+    /// Runs from opening until the end or a failure.
     void serve();
     void write(OutputTarget& target, const Item& item);
-    /// That of ticks until this one.
+    /// Writes the sound of all ticks before `until`.
     void hear(OutputTarget& target, std::uint64_t until);
     void want_no_more();
     void note_failure(const std::string& sentence);
-    /// Of one that listens: the next caller is waited for.
+    /// For a listening output: counts the caller and waits for the next one.
     void note_caller_left();
-    /// What waits is not written any more. Precondition: mutex_ is held.
+    /// Drops the waiting frames. Precondition: mutex_ is held.
     void drop_waiting();
-    /// False: it is not wanted any more.
+    /// Returns false if the output was stopped meanwhile.
     bool wait_to_try_again(std::chrono::nanoseconds time);
 
     OutputPlan plan_;
-    std::optional<SetTimecode> timecode_;  ///< of the programme's thread; none above 60 Hz
+    std::optional<SetTimecode> timecode_;  ///< used by the programme's thread; empty above 60 Hz
     BoundedQueue<Item> queue_;
     struct Sound {
         std::uint64_t tick = 0;
         std::shared_ptr<const SoundBlock> block;
     };
-    /// A sound outlasts the picture that was left out: it is heard where that is not seen.
+    /// Sound stays in the queue when its frame is dropped, so that the sound has no gap.
     std::deque<Sound> sounds_;
     std::size_t most_sounds_;
     OutputPatience patience_;
-    std::optional<std::uint64_t> first_tick_;  ///< of the thread: since it was opened
+    std::optional<std::uint64_t>
+        first_tick_;  ///< used by the output's thread: first tick since opening
     mutable std::mutex mutex_;
     std::condition_variable woken_;
     OutputState state_;
     RateMeter bytes_rate_;
     PercentileRecorder write_ms_;
-    std::uint64_t bytes_before_ = 0;  ///< of what was opened before
+    std::uint64_t bytes_before_ = 0;  ///< of earlier openings
     bool is_wanted_ = false, is_ending_ = false;
-    bool is_due_ = false;  ///< to be opened, if only to write what already waits
+    bool is_due_ = false;  ///< has to be opened, if only to write the waiting frames
     std::atomic<bool> is_abandoned_ = false;
     std::thread thread_;
 };
 
-/// For machines, such as "waiting".
+/// Key for machines, e.g. "waiting".
 const char* key_of(OutputPhase phase);
-/// For people, such as "waiting for a caller".
+/// Text for operators, e.g. "waiting for a caller".
 const char* words_of(OutputPhase phase);
 
 }  // namespace vantage

@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// How long an output may go on waiting for its peer or device. Endless until it is told to end.
+/// Time for which an output may wait for its peer or device. Unlimited until the output is stopped.
 class OutputPatience {
   public:
     bool is_over() const { return to_ns(MonotonicClock::now()) >= until_ns_; }

@@ -9,38 +9,39 @@
 
 namespace vantage {
 
-/// A programme's outputs, each of which is begun, ended and fails by itself, also while the
-/// programme runs. They get the clean picture, never what is laid over it for people. Thread-safe.
+/// Owner of all outputs of a programme. Each starts, stops and fails independently, also while the
+/// programme runs. Outputs get the clean picture, never the overlays for operators. Thread-safe.
 class OutputSupervisor {
   public:
     struct Settings {
         OutputFormat format;  ///< the requested encoder; empty: the first one that works
         double pulse_rate_hz = 30;
-        std::vector<std::string> urls;  ///< begun at once, unless they say start=off
+        std::vector<std::string> urls;  ///< started at once, unless they contain start=off
     };
-    /// Throws Error for a URL that cannot be; what only opening shows fails later, alone.
+    /// Throws Error for an invalid URL. An output that cannot be opened fails later, without effect
+    /// on the others.
     explicit OutputSupervisor(Settings settings);
 
-    /// Throws Error as the constructor would, and opens nothing.
+    /// Checks the settings without opening anything. Throws Error like the constructor.
     static void check(const Settings& settings);
 
-    /// For the programme; this must outlive it.
+    /// Sink for the programme; this object must outlive it.
     std::unique_ptr<PictureSink> sink();
 
-    /// Another one, begun at once unless its URL says start=off; its number, from 0 on. Throws
-    /// Error for what cannot be.
+    /// Adds an output and starts it, unless its URL contains start=off. Returns its number, from 0.
+    /// Throws Error for an invalid URL.
     std::size_t add(const std::string& url);
-    /// Never wait. Precondition: the number is of one.
+    /// Start and stop an output; they never wait. Precondition: an output has this number.
     void start(std::size_t number);
     void stop(std::size_t number);
     bool is_wanted(std::size_t number) const;
-    /// Ends all of them; what waits is written.
+    /// Ends all outputs; waiting frames are written.
     void finish();
 
     std::vector<OutputState> states() const;
-    /// Those that are to be shown on monitors, by the thread that may have windows.
+    /// Feeds of outputs to monitors, for the thread that owns the windows.
     std::vector<std::shared_ptr<ScreenFeed>> screens() const;
-    /// The standard output is one of them.
+    /// True if an output writes to standard output.
     bool takes_stdout() const;
 
   private:
@@ -50,7 +51,7 @@ class OutputSupervisor {
     Settings settings_;
     std::mutex adding_;  ///< held while an encoder is tried; the programme never waits for it
     mutable std::mutex mutex_;
-    bool has_encoder_ = false;  ///< it was chosen
+    bool has_encoder_ = false;  ///< the encoder was chosen
     bool takes_stdout_ = false;
     std::vector<std::shared_ptr<Output>> outputs_;
     std::vector<std::shared_ptr<ScreenFeed>> screens_;

@@ -6,7 +6,7 @@ namespace vantage {
 
 OutputPlan plan_output(const std::string& text, const OutputFormat& format) {
     OutputUrl url = OutputUrl::parse(text);
-    // Of every kind.
+    // An option of every kind of output.
     const bool begins = url.choice("start", {"on", "off"}) == "on";
     url.options.erase("start");
     std::string known;

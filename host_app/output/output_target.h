@@ -16,71 +16,74 @@ namespace vantage {
 
 class ScreenFeed;
 
-/// The programme, as every output has it.
+/// Format of the programme, the same for all outputs.
 struct OutputFormat {
     int width_px = 1280, height_px = 720;
-    double rate_hz = 30;              ///< 29.97 and its like are n * 1000 / 1001
+    double rate_hz = 30;              ///< 29.97 and similar rates are n * 1000 / 1001
     std::string encoder = "libx264";  ///< one of known_encoders()
-    bool overwrites = false;          ///< a file that is there may be replaced
+    bool overwrites = false;          ///< an existing file may be replaced
     bool has_sound = false;           ///< every tick has a SoundBlock
 };
 
-/// Whoever called a listening output has left: its end, and no failure.
+/// Error of a listening output whose caller has left. It ends the connection but does not count as
+/// a failure.
 class CallerLeft : public Error {
   public:
     using Error::Error;
 };
 
-/// Where an output's pictures go, open. Made, used and destroyed on the output's own thread, which
-/// may wait; destroyed without finish() it leaves nothing half-way.
+/// Interface of an open output. Create, use and destroy it on the output's own thread, which may
+/// block. If it is destroyed without finish(), it leaves nothing incomplete.
 class OutputTarget {
   public:
     virtual ~OutputTarget() = default;
-    /// The picture of tick n, the first of which is 0; ticks that were left out are missing.
-    /// `timecode` is its, or empty. Throws Error if the target has failed.
+    /// Writes the frame of a tick. Ticks count from 0; those of dropped frames are missing.
+    /// `timecode` may be empty. Throws Error if the target has failed.
     virtual void write(const ColourImage& picture, std::int64_t tick,
                        const std::string& timecode) = 0;
-    /// The sound of tick n, where the plan says that the target takes sound: in the order of ticks,
-    /// right after the picture; that of a tick whose picture was left out comes before the next.
+    /// Writes the sound of a tick, if the plan includes sound, in the order of ticks and right
+    /// after its frame. The sound of a dropped frame comes before the next frame.
     virtual void hear(const SoundBlock& /*sound*/, std::int64_t /*tick*/) {}
-    /// Called where no picture waits: what carries no times makes up here for one tick that was
-    /// left out. False: there is none. Throws as write().
+    /// Called while no frame waits. A target without time stamps repeats a frame here for one
+    /// dropped tick. Returns false if there is nothing to make up for. Throws like write().
     virtual bool catch_up() { return false; }
-    /// Ends it well. Throws Error if it has failed.
+    /// Completes the output. Throws Error if it has failed.
     virtual void finish() {}
-    /// After write() has failed: keeps what can be kept of what was written. What to add to the
-    /// sentence of the failure.
+    /// Saves what can be saved after write() has failed. Returns an addition to the error message.
     virtual std::string salvage() { return ""; }
-    /// Written so far.
+    /// Bytes written so far.
     virtual std::uint64_t bytes() const = 0;
 };
 
-/// How an output is made of its URL; all of it that can be known before it is opened is checked.
+/// Parsed and checked URL of an output, and the function that opens it.
 struct OutputPlan {
-    std::string name;        ///< for people, without secrets
-    std::string film = "";   ///< its file, where it is one
-    bool begins = true;      ///< at once; else when somebody asks for it
-    bool is_stream = false;  ///< what fails is tried again, and what nobody takes is no loss
+    std::string name;       ///< for operators, without secrets
+    std::string film = "";  ///< path of its file, if it has one
+    bool begins = true;     ///< starts at once instead of on request
+    bool is_stream =
+        false;  ///< tried again after a failure; frames without a receiver are not lost frames
     bool takes_sound = false;
-    bool is_listening = false;  ///< opening it waits for somebody who calls
+    bool is_listening = false;  ///< opening it waits for a caller
     bool is_encoded = true;
     bool takes_stdout = false;
-    std::shared_ptr<ScreenFeed> screen = {};  ///< that somebody has to show; null: none
-    /// Waits until it is open; gives up, and throws, soon after the patience is over, as write()
-    /// does. Throws Error if it cannot be opened. May be called again after what it made is gone.
+    std::shared_ptr<ScreenFeed> screen = {};  ///< feed for a monitor; null: none
+    /// Waits until the target is open. Throws Error if it cannot be opened, or soon after
+    /// `patience` is over, like write(). It may be called again once the previous target is
+    /// destroyed.
     std::function<std::unique_ptr<OutputTarget>(const OutputPatience& patience)> open;
 };
 
-/// A kind of output. A backend is a file outputs/NAME_output.cpp with `NAME_output_entry()`.
+/// Registry entry of a kind of output. A backend is one file, outputs/NAME_output.cpp, with
+/// `NAME_output_entry()`.
 struct OutputEntry {
     std::string scheme;
-    std::string words;  ///< how its URL is written, for people
-    /// Throws Error for what cannot be.
+    std::string words;  ///< form of its URL, for help
+    /// Throws Error if the URL is not valid.
     std::function<OutputPlan(const OutputUrl& url, const OutputFormat& format)> plan;
 };
 std::vector<OutputEntry> output_entries();
 
-/// The plan of whichever kind the URL is of. Throws Error, also for a URL of no kind.
+/// Creates the plan by the scheme of the URL. Throws Error, also for an unknown scheme.
 OutputPlan plan_output(const std::string& url, const OutputFormat& format);
 
 }  // namespace vantage

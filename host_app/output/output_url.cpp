@@ -70,7 +70,7 @@ OutputUrl OutputUrl::parse(const std::string& text, const std::string& kind) {
         const std::string pair = text.substr(at, end - at);
         const std::size_t equals = pair.find('=');
         const std::string name = pair.substr(0, equals);
-        // A secret is not to stand in the sentence about it either.
+        // The error message must not contain a secret either.
         if (equals == std::string::npos || name.empty())
             fail(
                 "the {} {} has an option without a value: options are NAME=VALUE, with & "

@@ -11,28 +11,28 @@
 
 namespace vantage {
 
-/// What a tick hands out. Pictures and sets are shared and never change.
+/// Result of one tick of the programme. Images and frame sets are shared and immutable.
 struct ProgrammePicture {
-    std::uint64_t tick = 0;  ///< from the first picture on; none is left out
-    ColourImage picture;     ///< clean
-    ColourImage overlaid;    ///< for people: with the source map where that is asked for
+    std::uint64_t tick = 0;  ///< counts from the first picture, without gaps
+    ColourImage picture;     ///< without overlays
+    ColourImage overlaid;    ///< for operators: with the source map if requested
     std::shared_ptr<const FrameSet> set;
-    CameraState camera;                       ///< that the picture was rendered from
-    std::string title;                        ///< one line for people: when, of what, from where
-    std::shared_ptr<const SoundBlock> sound;  ///< of the tick; null: the programme has none
+    CameraState camera;                       ///< camera that the picture was rendered from
+    std::string title;                        ///< one line for operators: time, subject and camera
+    std::shared_ptr<const SoundBlock> sound;  ///< sound of the tick; null if the programme has none
 };
 
-/// Where the programme's pictures go. One that fails is closed and reported; neither the programme
-/// nor another sink notices.
+/// Interface of a receiver of the programme. A sink that fails is closed and reported; the
+/// programme and other sinks continue.
 class PictureSink {
   public:
     virtual ~PictureSink() = default;
-    /// Name for people; empty: the sink is no output of the programme and has no stats among them.
+    /// Name for operators; empty if the sink is not an output and has no stats.
     virtual std::string name() const = 0;
-    /// Never waits: what cannot be taken now is left out and counted. Throws Error if the sink has
-    /// failed.
+    /// Never waits: frames that cannot be taken now are dropped and counted. Throws Error if the
+    /// sink has failed.
     virtual void take(const ProgrammePicture& picture) = 0;
-    /// Ends it: what waits is written. Throws Error if the sink has failed.
+    /// Ends the sink; waiting frames are written. Throws Error if the sink has failed.
     virtual void finish() {}
 };
 

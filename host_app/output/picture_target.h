@@ -4,9 +4,9 @@
 
 namespace vantage {
 
-/// Throws Error if a picture could not be written there later: a wrong extension, or a folder that
-/// is missing or closed; or it is there already and may not be replaced. So that a flight does not
-/// end with nowhere to put its picture.
+/// Checks that an image can be saved to the path, before the flight whose result it is. Throws
+/// Error for a wrong extension, for a folder that is missing or not writable, and for an existing
+/// file that may not be replaced.
 void require_picture_target(const std::filesystem::path& path, bool may_replace);
 
 }  // namespace vantage

@@ -8,32 +8,32 @@
 
 namespace vantage {
 
-/// The newest picture for a monitor, on its way from an output's thread to the one thread that may
-/// have windows. Thread-safe.
+/// Passes the newest picture from an output's thread to the thread that owns the windows.
+/// Thread-safe.
 class ScreenFeed {
   public:
     enum class State {
         closed,
-        asked,  ///< for a window
+        asked,  ///< a window is requested
         shown,
         failed,
     };
-    /// Monitors are counted from 1 on.
+    /// Monitors count from 1.
     explicit ScreenFeed(int monitor) : monitor_(monitor) {}
     int monitor() const { return monitor_; }
     State state() const;
 
-    // Of the output.
+    // For the output's thread.
     void ask();
-    /// Throws Error if the window is not there any more.
+    /// Throws Error if the window is gone.
     void put(const ColourImage& picture);
     void close();
     std::string failure() const;
 
-    // Of whoever has the windows.
+    // For the thread that owns the windows.
     void show();
     void fail(const std::string& why);
-    /// What was not taken yet; empty: nothing.
+    /// Newest picture that was not taken yet; empty if there is none.
     ColourImage take();
 
   private:

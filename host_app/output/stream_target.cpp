@@ -40,10 +40,10 @@ StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patie
         fail_for("it cannot be opened", code);
     output_.reset(output);
     output_->interrupt_callback = {is_over, const_cast<OutputPatience*>(&patience)};
-    // A picture waits for nothing behind it.
+    // Each packet is sent at once.
     output_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
-    // Its sound comes two frames of AAC later. A receiver that keeps to the stream's clock is told
-    // to wait that long: libavformat's clock is behind by twice this.
+    // Sound arrives two AAC frames after its picture. Receivers that follow the stream's clock are
+    // told to wait for it: libavformat's clock lags by twice this time.
     constexpr int sound_lag_us = 50'000;
     output_->max_delay = settings.has_sound ? sound_lag_us : 0;
     AvDictionary options;
@@ -112,7 +112,7 @@ void StreamTarget::send() {
 void StreamTarget::send_sound() {
     SoundEncoder& encoder = sound_->encoder();
     while (AVPacket* packet = encoder.next()) {
-        // MPEG-TS has no time before the first picture; a decoder begins with the next one as well.
+        // MPEG-TS has no times before the first frame; a decoder can start with the next packet.
         if (packet->pts >= 0) write(*packet, encoder.context(), *sound_stream_);
     }
 }
@@ -128,7 +128,8 @@ EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format
     if (format.width_px % 2 != 0 || format.height_px % 2 != 0)
         fail("the output {}: a stream of {}x{} cannot be sent: its sides have to be even",
              url.shown, format.width_px, format.height_px);
-    // 4.6 Mbit/s at 1280x720 and 50 Hz, 10.4 at 1920x1080: what contribution links carry.
+    // Yields 4.6 Mbit/s at 1280x720 and 50 Hz and 10.4 Mbit/s at 1920x1080, which contribution
+    // links carry.
     constexpr double bits_a_pixel = 0.1, least_bps = 500e3;
     const double usual_bps =
         std::max(least_bps, bits_a_pixel * format.width_px * format.height_px * format.rate_hz);

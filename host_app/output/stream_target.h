@@ -11,22 +11,23 @@
 
 namespace vantage {
 
-/// A stream over a network by FFmpeg: H.264, and AAC where there is sound, in MPEG-TS. A picture is
-/// on its way when write() returns; a receiver can join at any second.
+/// Network stream by FFmpeg: H.264, and AAC if there is sound, in MPEG-TS. A frame is sent before
+/// write() returns; receivers can join at any second.
 class StreamTarget final : public OutputTarget {
   public:
     struct Settings {
-        std::string url;                                           ///< FFmpeg's, without secrets
-        std::vector<std::pair<std::string, std::string>> options;  ///< FFmpeg's of its protocol
-        /// What a peer that does not answer may mean; empty: there is no more to say.
+        std::string url;  ///< FFmpeg's URL, without secrets
+        std::vector<std::pair<std::string, std::string>>
+            options;  ///< FFmpeg's options of the protocol
+        /// Possible reasons for a peer that does not answer, for the error message; may be empty.
         std::string silence = {};
         std::string encoder;
         EncoderSettings encoding;
         bool has_sound = false;
-        bool is_listening = false;  ///< a peer that is gone is a caller that has left
+        bool is_listening = false;  ///< a lost peer is a caller that has left
     };
-    /// Waits for a peer where the protocol has one. Throws Error if there is none, or it refuses,
-    /// or patience is over; `patience` must outlive this.
+    /// Waits for a peer if the protocol has one. Throws Error if there is none, if it refuses, or
+    /// if patience is over. `patience` must outlive this object.
     StreamTarget(const Settings& settings, const OutputPatience& patience);
 
     void write(const ColourImage& picture, std::int64_t tick, const std::string& timecode) override;
@@ -46,11 +47,11 @@ class StreamTarget final : public OutputTarget {
     std::optional<PictureEncoder> encoder_;
     std::optional<SoundTrack> sound_;
     AVStream* stream_ = nullptr;        ///< owned by output_
-    AVStream* sound_stream_ = nullptr;  ///< likewise
+    AVStream* sound_stream_ = nullptr;  ///< owned by output_
 };
 
-/// What every stream of a programme is encoded with: a constant bit rate, by the option `bitrate`
-/// or one that suits the size. Throws Error for an odd size, which H.264 at 4:2:0 has not.
+/// Encoder settings of a stream: a constant bit rate, from the option `bitrate` or by the size.
+/// Throws Error for an odd size, which H.264 at 4:2:0 does not support.
 EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format);
 
 }  // namespace vantage

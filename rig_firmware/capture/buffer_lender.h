@@ -8,23 +8,24 @@
 
 namespace vantage {
 
-/// Lends the buffers of one camera, and gives each back to its driver when the last owner of its
-/// lease lets go, on whichever thread. A lease may outlive the lender: the memory stays, and the
-/// driver is left alone.
+/// Reference counting of one camera's buffers. A buffer goes back to its driver when the last copy
+/// of its lease is gone, on whichever thread. A lease may outlive the lender: its memory stays
+/// valid, and the driver is not called.
 class BufferLender {
   public:
-    /// With fewer buffers than this the driver would run out of them while some are on their way.
+    /// Smallest number of buffers that allows lending. With fewer, the driver would run out while
+    /// some are in the pipeline.
     static constexpr unsigned least_buffers = 5;
     static constexpr unsigned wanted_buffers = 6;
 
-    /// `give_back` gets the number of a buffer; must not throw.
+    /// `give_back` receives the index of a buffer and must not throw.
     explicit BufferLender(std::function<void(unsigned)> give_back)
         : desk_(std::make_shared<Desk>(std::move(give_back))) {}
     ~BufferLender() { close(); }
     BufferLender(const BufferLender&) = delete;
     BufferLender& operator=(const BufferLender&) = delete;
 
-    /// `memory` is held for as long as the lease.
+    /// `memory` lives as long as the lease.
     std::shared_ptr<const void> lend(unsigned index, std::shared_ptr<const void> memory) {
         struct Lease {
             std::shared_ptr<Desk> desk;
@@ -42,10 +43,10 @@ class BufferLender {
         return std::make_shared<const Lease>(desk_, index, std::move(memory));
     }
 
-    /// Stands for this camera among the owners of its pictures; see LentPicture.
+    /// Identifies this camera in LentPicture.
     std::shared_ptr<const void> identity() const { return desk_; }
 
-    /// From now on what comes back is kept from the driver.
+    /// Stops returning buffers to the driver.
     void close() {
         const std::lock_guard lock(desk_->mutex);
         desk_->give_back = nullptr;

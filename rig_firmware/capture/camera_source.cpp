@@ -28,11 +28,11 @@ using namespace std::chrono_literals;
 constexpr std::chrono::nanoseconds time_between_reopenings = 500ms;
 constexpr std::chrono::nanoseconds longest_silence = 3s;
 
-/// Tells whether cameras are silent that should not be. Those on a trigger owe a picture from the
-/// first pulse after their last one on: before a take they may wait for hours.
+/// Detects cameras that should deliver frames but are silent. Triggered cameras owe a frame only
+/// from the first pulse after their last frame: before the show they may wait for hours.
 class Silence {
   public:
-    /// Of cameras at this period; slow ones are given time for three pictures.
+    /// `period` is the frame period; slow cameras may take three periods.
     explicit Silence(std::chrono::nanoseconds period)
         : longest_(std::max(longest_silence, 3 * period)) {}
 
@@ -58,10 +58,10 @@ class Silence {
     bool is_answered_ = false;
 };
 
-/// Two cameras, or one that delivers both pictures side by side. Pictures are joined by the
-/// kernel's time stamps. On a trigger they get the index of the pulse that exposed them; cameras
-/// that run by themselves get that of the nearest pulse. A camera that is unplugged or falls silent
-/// is opened again until it is back.
+/// Source of two cameras, or of one camera that delivers both images side by side. It pairs frames
+/// by the kernel's time stamps. Triggered cameras get the index of the pulse that exposed them;
+/// free-running cameras get that of the nearest pulse. A camera that is unplugged or silent is
+/// reopened until it is back.
 class CameraSource final : public StereoSource {
   public:
     CameraSource(const RigConfig& config, CameraOpener opener)
@@ -176,9 +176,9 @@ class CameraSource final : public StereoSource {
         log_info("the cameras deliver again");
     }
 
-    /// Lets go of what the drivers filled while the rest of the daemon was being built: those
-    /// pictures are old, and many are lost after them. One that is new ends it: a computer that
-    /// converts them more slowly than they come would never get to the last.
+    /// Discards the frames that the drivers captured while the rest of the daemon started. They are
+    /// old, and many frames are missing after them. Stops at the first new frame, since a computer
+    /// that converts frames more slowly than they arrive would never reach the last one.
     void drain() {
         const MonotonicTime begin = MonotonicClock::now();
         for (const auto& camera : cameras_)
@@ -224,8 +224,8 @@ class CameraSource final : public StereoSource {
             const std::optional<std::uint64_t> index = trigger_->index_of(stamp);
             frame.synchronized = index.has_value();
             frame.exposure = trigger_->exposure_centre(stamp);
-            // One of no pulse goes by the pulse before it, so that it never takes the place of a
-            // frame that is still to come.
+            // A frame without a pulse gets the index of the pulse before it, so that it never takes
+            // the index of a later frame.
             frame.trigger_index = index.value_or(grid_.index_at_or_before(frame.exposure));
             return frame;
         }
@@ -236,8 +236,8 @@ class CameraSource final : public StereoSource {
         return frame;
     }
 
-    /// A pair of readings every quarter of a second keeps the model at hand without a cost. A clock
-    /// that was set is followed from the next frame on.
+    /// Reads both clocks every quarter of a second, which keeps the model current at no cost. A
+    /// clock that was set counts from the next frame on.
     void read_clocks() {
         constexpr std::chrono::milliseconds between(250);
         const MonotonicTime now = MonotonicClock::now();
@@ -278,7 +278,7 @@ class CameraSource final : public StereoSource {
                       std::move(pair->left.picture), std::move(pair->right.picture)};
     }
 
-    /// The halves of one picture that holds both sides.
+    /// Splits one side-by-side image into its halves.
     Joined split(const SensorPicture& both) const {
         Joined joined{both.time, both, both};
         if (both.lent) {
@@ -314,11 +314,11 @@ class CameraSource final : public StereoSource {
     PulseNumberer numberer_;
     FramePairer<SensorPicture> pairer_;
     std::vector<std::unique_ptr<SensorCamera>>
-        cameras_;  ///< left, right or both in one; none: lost
+        cameras_;  ///< left, right, or one with both sides; null: lost
     std::array<SequenceGaps, 2> gaps_;
     bool begun_ = false;
     bool lends_ = false;
-    Silence silence_;  ///< of both sides
+    Silence silence_;  ///< of both cameras
     std::string lost_because_;
     std::uint64_t reopened_ = 0, damaged_before_ = 0, copied_ = 0;
     std::vector<std::string> report_;

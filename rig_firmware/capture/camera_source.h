@@ -8,8 +8,9 @@
 
 namespace vantage {
 
-/// A source of two cameras of one interface ('left_device' and 'right_device' of [source]), or of
-/// one that delivers both sides in one picture. Throws Error if they cannot be had.
+/// Creates a source of two cameras on one interface ('left_device' and 'right_device' of [source]),
+/// or of one camera that delivers both sides in one image. Throws Error if the cameras are not
+/// available.
 std::unique_ptr<StereoSource> make_camera_source(const RigConfig& config, CameraOpener open);
 
 }  // namespace vantage

@@ -4,7 +4,8 @@
 
 namespace vantage {
 
-/// The device is gone (unplugged, or its driver stopped); it may come back under the same name.
+/// Error for a device that is gone (unplugged, or its driver stopped). It may come back under the
+/// same name.
 class DeviceLost : public Error {
   public:
     using Error::Error;

@@ -7,8 +7,8 @@
 
 namespace vantage {
 
-/// The processor's reads of a buffer that a device writes stand between its construction and its
-/// end. Does nothing for -1.
+/// Scope in which the processor reads a buffer that a device writes (DMA_BUF_IOCTL_SYNC). Does
+/// nothing for the descriptor -1.
 class DmaBufAccess {
   public:
     explicit DmaBufAccess(int fd) : fd_(fd) { sync(DMA_BUF_SYNC_START | DMA_BUF_SYNC_READ); }
@@ -19,7 +19,7 @@ class DmaBufAccess {
   private:
     void sync(std::uint64_t flags) const {
         dma_buf_sync request{.flags = flags};
-        // Buffers of some drivers need no such thing and say so.
+        // Some drivers need no synchronisation and refuse the request.
         if (fd_ >= 0) ::ioctl(fd_, DMA_BUF_IOCTL_SYNC, &request);
     }
     int fd_;

@@ -11,10 +11,10 @@
 
 namespace vantage {
 
-/// Joins the pictures of two sensors that saw the same instant: those whose times are less than
-/// half a period apart. Never by arrival or number: one side may begin later, lose pictures or
-/// deliver them in bursts. A picture whose partner cannot come any more is counted and let go.
-/// Holds at most a few pictures a side.
+/// Pairs the frames of two sensors whose times are less than half a period apart. It never pairs by
+/// arrival or number, since one camera may start later, lose frames or deliver them in bursts. A
+/// frame whose partner cannot arrive any more is counted and dropped. Holds at most a few frames
+/// per side.
 template <class Picture>
 class FramePairer {
   public:
@@ -31,7 +31,7 @@ class FramePairer {
     void push_left(MonotonicTime time, Picture picture) { push(left_, time, std::move(picture)); }
     void push_right(MonotonicTime time, Picture picture) { push(right_, time, std::move(picture)); }
 
-    /// The oldest pair, once both of its pictures are there.
+    /// Removes and returns the oldest complete pair; empty if there is none.
     std::optional<Pair> pop() {
         while (!left_.empty() && !right_.empty()) {
             const auto apart = left_.front().time - right_.front().time;
@@ -48,14 +48,14 @@ class FramePairer {
         return std::nullopt;
     }
 
-    /// Lets go of what waits, as after a sensor was lost.
+    /// Drops the waiting frames, as after a sensor was lost.
     void clear() {
         unpaired_ += left_.size() + right_.size();
         left_.clear();
         right_.clear();
     }
 
-    /// Pictures that were let go without a partner.
+    /// Number of frames that were dropped without a partner.
     std::uint64_t unpaired() const { return unpaired_; }
 
   private:

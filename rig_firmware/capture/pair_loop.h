@@ -12,26 +12,26 @@
 
 namespace vantage {
 
-/// Picture pairs of a scene that repeats, kept as they are made and shown again a loop later: to
-/// the bit, without their noise. All memory is taken at the start, so that it does not grow; pairs
-/// that it has no room for are made every time.
+/// Cache of the image pairs of a repeating scene. A pair is shown again one loop later, identical
+/// to the bit and without noise. All memory is allocated at the start; pairs that do not fit are
+/// rendered every time.
 class PairLoop {
   public:
-    /// `most_bytes` hold as many pairs as fit, no more than a loop has. Nothing is kept where a
-    /// loop is no whole number of pulses, for then no time of it comes twice.
+    /// Caches as many pairs as fit into `most_bytes`, at most one loop. Caches nothing if the loop
+    /// is not a whole number of pulses, since then no time repeats.
     PairLoop(cv::Size size, std::chrono::seconds loop, const PulseGrid& pulses,
              std::size_t most_bytes);
 
     struct Pair {
         ColourImage left, right;
     };
-    /// What was kept of this time, or of one whole loops away.
+    /// Cached pair of this time, or of a time that is whole loops away; empty if there is none.
     std::optional<Pair> find(std::chrono::nanoseconds time) const;
-    /// Its pictures are opaque.
+    /// Caches a pair of opaque images.
     void keep(std::chrono::nanoseconds time, const ColourImage& left, const ColourImage& right);
 
-    std::size_t length() const { return length_; }  ///< pairs of the loop; 0: no time comes twice
-    std::size_t room() const { return room_; }      ///< pairs
+    std::size_t length() const { return length_; }  ///< pairs per loop; 0 if no time repeats
+    std::size_t room() const { return room_; }      ///< capacity in pairs
     std::size_t kept() const { return places_.size(); }
 
   private:
@@ -41,7 +41,7 @@ class PairLoop {
     cv::Size size_;
     std::chrono::nanoseconds loop_;
     std::size_t length_ = 0, room_ = 0;
-    mutable std::vector<std::uint8_t> bytes_;  ///< RGB, left and right, pair after pair
+    mutable std::vector<std::uint8_t> bytes_;  ///< RGB, left and right, one pair after another
     std::unordered_map<std::int64_t, std::size_t> places_;
 };
 

@@ -9,7 +9,8 @@
 namespace vantage {
 namespace {
 
-/// A view of the picture's bytes with their padding; OpenCV wants them writable and does not write.
+/// Wraps the image's bytes, padding included, without a copy. OpenCV requires writable memory, but
+/// nothing writes to it.
 cv::Mat rows_of(const RawPicture& picture, int rows, int type, std::size_t stride) {
     return {rows, picture.width_px, type,
             const_cast<void*>(static_cast<const void*>(picture.bytes.data())), stride};
@@ -30,8 +31,8 @@ ColourImage deep_grey_to_colour(const cv::Mat& deep, int bits) {
     return grey_to_colour(grey);
 }
 
-/// Cameras take liberties with the standard that cost no pixel; a driver that sends each picture
-/// with padding is warned of once.
+/// Decodes a JPEG. Deviations from the standard that cost no pixel are accepted; padding after each
+/// image is logged once.
 ColourImage jpeg_to_colour(const RawPicture& picture) {
     const DecodedJpeg decoded = decode_jpeg(picture.bytes, JpegChannels::rgba);
     if (decoded.image.cols != picture.width_px || decoded.image.rows != picture.height_px)
@@ -51,15 +52,15 @@ std::size_t packed_bytes_per_line(PixelFormat format, int width_px) {
     return one_byte_a_pixel ? width : 2 * width;
 }
 
-/// The last line may come without its padding.
+/// Smallest size in bytes; the last line may come without its padding.
 std::size_t least_bytes(PixelFormat format, int height_px, std::size_t packed, std::size_t stride) {
     const auto height = static_cast<std::size_t>(height_px);
     const std::size_t lines = format == PixelFormat::nv12 ? height + height / 2 : height;
     return stride * (lines - 1) + packed;
 }
 
-/// The stride of a picture that is no JPEG. Throws Error if its bytes are too few or its sides odd
-/// where pixels come in pairs.
+/// Returns the stride of an uncompressed image. Throws Error if there are too few bytes, or if a
+/// side is odd in a format with pairs of pixels.
 std::size_t checked_bytes_per_line(const RawPicture& picture) {
     const int width = picture.width_px, height = picture.height_px;
     const std::size_t packed = packed_bytes_per_line(picture.format, width);

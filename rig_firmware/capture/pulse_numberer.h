@@ -7,17 +7,16 @@
 
 namespace vantage {
 
-/// Gives pictures of sensors that run by themselves the index of the pulse nearest to their
-/// exposure. A sensor whose phase lies in the middle between two pulses would jitter from one to
-/// the other: the pulse after the last one given is taken up to three quarters of a period away.
-/// Every pulse is given once; those left out between two pictures are counted as missed, pictures
-/// that have no pulse of their own as surplus.
+/// Gives the frames of free-running sensors the index of the pulse nearest to their exposure. A
+/// sensor in the middle between two pulses would jitter between them: the pulse after the last one
+/// given is therefore accepted up to three quarters of a period away. Every pulse is given once.
+/// Pulses between two frames count as missed, frames without a pulse of their own as surplus.
 class PulseNumberer {
   public:
     explicit PulseNumberer(const PulseGrid& grid) : grid_(grid) {}
 
-    /// Empty for a surplus picture. Exposures come in rising order, unless the clock was set back:
-    /// then the indices go back with it.
+    /// Returns nothing for a surplus frame. Exposures ascend, unless the clock was set back: then
+    /// the indices go back with it.
     std::optional<std::uint64_t> number(TaiTime exposure) {
         const std::uint64_t index = preferred(exposure);
         constexpr std::uint64_t most_surplus = 2;
@@ -34,7 +33,7 @@ class PulseNumberer {
         return index;
     }
 
-    /// The pulses that the clock leapt over, or repeats, were not missed.
+    /// Resets the count, since pulses that the clock skipped or repeats were not missed.
     void clock_was_set() {
         if (last_) ++clock_steps_;
         last_.reset();

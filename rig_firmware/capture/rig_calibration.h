@@ -7,12 +7,12 @@
 
 namespace vantage {
 
-/// The calibration a rig works with: its file, or the ideal rig of [virtual_rig] where there is
-/// none and the source's kind allows it. Throws Error if the file cannot be used, is for pictures
-/// of another size than `picture_size`, or is needed and missing.
+/// Calibration of a rig: its file, or the ideal rig of [virtual_rig] if there is no file and the
+/// kind of source allows it. Throws Error if the file cannot be used, is for images of another size
+/// than `picture_size`, or is required and missing.
 StereoCalibration rig_calibration(const RigConfig& config, cv::Size picture_size);
 
-/// The ideal rig of [virtual_rig] for pictures of this size, with its id.
+/// Ideal rig of [virtual_rig] for images of this size, with its id.
 StereoCalibration ideal_rig(const RigConfig& config, cv::Size picture_size);
 
 }  // namespace vantage

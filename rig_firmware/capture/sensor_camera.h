@@ -13,38 +13,38 @@
 
 namespace vantage {
 
-/// One picture of a camera.
+/// One frame of a camera.
 struct SensorPicture {
-    std::uint32_t sequence = 0;  ///< the driver's running count
+    std::uint32_t sequence = 0;  ///< running count of the driver
     MonotonicTime time{};        ///< the kernel's time stamp
-    ColourImage colour;          ///< empty where the picture is lent
+    ColourImage colour;          ///< empty if the image is lent
     std::optional<LentPicture> lent = {};
 };
 
-/// A camera that streams by itself or on pulses, whatever interface it has. Throws DeviceLost when
-/// it is gone.
+/// Interface of a camera that runs freely or on pulses, on any bus. Methods throw DeviceLost when
+/// the camera is gone. Use it from one thread.
 class SensorCamera {
   public:
     virtual ~SensorCamera() = default;
 
-    /// Readable while a picture is there, for poll().
+    /// Descriptor for poll(), readable while a frame is waiting.
     virtual int fd() const = 0;
-    /// The next picture if one is there.
+    /// Returns the next frame if one is waiting.
     virtual std::optional<SensorPicture> take() = 0;
-    /// A buffer such as its pictures would be lent in, whole and without a lease; empty where it
-    /// cannot lend: compressed pictures, or too few buffers.
+    /// Sample of the buffers that lent images come in, whole and without a lease. Empty if the
+    /// camera cannot lend, because of compressed images or too few buffers.
     virtual std::optional<LentPicture> specimen() const = 0;
-    /// From now on pictures come lent, where there is a specimen.
+    /// Delivers lent images from now on, if there is a specimen.
     virtual void lend() = 0;
-    /// Pictures that came marked as faulty or could not be decoded.
+    /// Number of frames that were marked as faulty or could not be decoded.
     virtual std::uint64_t damaged() const = 0;
-    /// Lines for the start-up report: device and mode; what is fixed, and what is automatic and
+    /// Lines for the start-up report: device, mode, fixed controls, and automatic controls that
     /// should be fixed.
     virtual std::vector<std::string> report() const = 0;
 };
 
-/// Opens the camera of a name in [source], for pictures of the configured size, or twice as wide
-/// where both sides come in one. Throws Error that says what there is if it cannot be had.
+/// Opens the camera that [source] names, for images of the configured size, or of twice the width
+/// if both sides come in one. Throws Error that lists the alternatives if it is not available.
 using CameraOpener =
     std::function<std::unique_ptr<SensorCamera>(const std::string& name, bool side_by_side)>;
 

@@ -31,8 +31,8 @@ std::filesystem::path picture(const CaptureOptions& options, const char* side,
     return std::filesystem::path(options.folder) / fmt::format("{}_{}.png", side, index);
 }
 
-/// Waits for the next pulse that is to be kept; empty at the end of the material or when the
-/// program is asked to stop. Throws Error if none comes for too long.
+/// Waits for the next pulse that the options keep. Returns nothing at the end of the material or
+/// when the program is asked to stop. Throws Error if no pulse comes for too long.
 std::optional<StereoFrame> next_kept(StereoSource& source, const CaptureOptions& options,
                                      StopSignal& stop) {
     auto heard = MonotonicClock::now();
@@ -59,7 +59,7 @@ void run(const CaptureOptions& options) {
     for (int i = 0; i < options.count; ++i) {
         const std::optional<StereoFrame> frame = next_kept(*source, options, stop);
         if (!frame) break;
-        // The right one last: a pair is whole where both stand.
+        // The right image is written last: a pair is complete where both files exist.
         write_colour_image(picture(options, "left", frame->trigger_index), frame->left);
         write_colour_image(picture(options, "right", frame->trigger_index), frame->right);
         indices.push_back(frame->trigger_index);

@@ -2,8 +2,8 @@
 
 namespace vantage {
 
-/// Of `--config`, with the places of what documents the file: in the sources, and where the package
-/// puts it.
+/// Help text for `--config`. It names the documented configuration file in the sources and in the
+/// installed package.
 inline constexpr const char* rig_file_help =
     "The rig (TOML); every key is in hw_config/rig.toml (installed: /etc/vantage/rig.toml)";
 

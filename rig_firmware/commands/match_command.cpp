@@ -26,7 +26,7 @@
 namespace vantage {
 namespace {
 
-/// Of the known disparities; 0 if there is none.
+/// Median of the known disparities in pixels; 0 if none is known.
 double median_px(const DisparityImage& disparity) {
     std::vector<std::uint16_t> known;
     for (const std::uint16_t d : disparity)
@@ -43,7 +43,7 @@ struct MatchOptions {
     bool no_fill = false, explain = false, json = false;
 };
 
-/// Everything that can be said without reading a picture.
+/// Checks the output options that can be checked without reading an image. Throws Error.
 void check_outputs(const MatchOptions& options) {
     disparity_form(options.output);
     require_writable_output(options.output, {options.left, options.right});
@@ -110,7 +110,8 @@ void match(const MatchOptions& options) {
         fail("the matcher '{}' knows no confidence; leave out --confidence or take another matcher",
              matcher_name);
     const Texture left_texture = upload(left), right_texture = upload(right);
-    // The first match warms the driver up: some compile shaders when they are first used.
+    // The first match only warms up the driver: some drivers compile shaders when they are first
+    // used.
     const DisparityImage disparity = matcher->match(left_texture, right_texture).download();
     const double gpu_ms =
         median_gpu_ms(options.repeats, [&] { matcher->match(left_texture, right_texture); });

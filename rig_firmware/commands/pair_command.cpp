@@ -73,10 +73,10 @@ void tell_paired(const EventTeller& teller, const PairedFiles& files, const Pair
                 words);
 }
 
-/// What the person here has typed of the code that is shown.
+/// Handles a line that the operator typed while a pairing code is shown.
 void take_answer(const std::string& line, PairingWindow& window, PairingSocket& socket) {
     const RigPairing* const pairing = window.to_compare();
-    // A line that was typed before there was anything to compare says nothing.
+    // A line that was typed before the code was shown answers nothing.
     if (!pairing) return;
     socket.send(is_same_code(line, *pairing->code()) ? window.confirm()
                                                      : window.reject(MonotonicClock::now()));

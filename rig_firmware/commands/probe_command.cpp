@@ -49,7 +49,7 @@ void print_for_machines(const ProbeReport& report) {
         {"clocks", report.clocks.facts},
         {"known", report.known.facts},
         {"unfit", report.unfit}};
-    // Device names are bytes that need not be UTF-8.
+    // Device names are bytes that need not be valid UTF-8.
     std::cout << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
 }
 

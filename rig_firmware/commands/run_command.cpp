@@ -23,7 +23,8 @@ namespace vantage {
 namespace {
 
 constexpr std::chrono::seconds status_every(5);
-/// The slowest that a thread comes round where all is well: a picture matched by a busy processor.
+/// A thread that has not passed its loop for this long counts as stuck. The limit covers the
+/// slowest healthy case: matching one frame on a busy processor.
 constexpr std::chrono::seconds stuck_after(15);
 
 struct RunOptions {
@@ -64,7 +65,7 @@ nlohmann::ordered_json to_json(const std::string& rig, const DaemonStatus& statu
     return summary;
 }
 
-/// What became of the frames so far, with the rate since the last line.
+/// Prints the status of the daemon: frame counts so far, with the rates since the last line.
 class StatusLines {
   public:
     std::string next(const DaemonStatus& status) {
@@ -95,8 +96,8 @@ class StatusLines {
     std::uint64_t published_ = 0;
 };
 
-/// Feeds the service manager's watchdog as long as every thread of the daemon comes round.
-/// `stuck`: the one that did not at the last call.
+/// Feeds the service manager's watchdog while every thread of the daemon passes its loop. `stuck`
+/// holds the name of the thread that was stuck at the last call.
 void tell(ServiceNotifier& service, const RigDaemon& daemon, std::string& stuck) {
     const DaemonStatus status = daemon.status();
     const std::string published =
@@ -138,7 +139,7 @@ void run(const RunOptions& options) {
     MonotonicTime next_status = MonotonicClock::now() + status_every;
     while (daemon.running() && !stop.wait_for(StopSignal::look_period)) {
         tell(service, daemon, stuck);
-        // The lines about the GPU come once its shaders are compiled.
+        // The report names the GPU only once its shaders are compiled.
         if (!is_started && daemon.status().starting.empty()) {
             is_started = true;
             say_new_lines();

@@ -25,7 +25,8 @@ struct SyncBarOptions {
     bool active_low = false, pretended = false, json = false;
 };
 
-/// Lines of the 40-pin header that neither pulses (GPIO17) nor I2C, SPI and UART use.
+/// Default lines of the 40-pin header: those that neither the pulses (GPIO17) nor I2C, SPI and UART
+/// use.
 std::vector<std::string> usual_lines(int leds) {
     std::vector<std::string> lines = {"GPIO5",  "GPIO6",  "GPIO12", "GPIO13", "GPIO16", "GPIO19",
                                       "GPIO20", "GPIO21", "GPIO22", "GPIO23", "GPIO24", "GPIO25"};

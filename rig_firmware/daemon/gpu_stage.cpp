@@ -24,13 +24,13 @@ std::string chosen_matcher(const RigConfig& config) {
     return default_matcher(parse_preset(config.match.preset));
 }
 
-/// The configuration with this preset.
+/// Returns a copy of the configuration with this matcher preset.
 RigConfig with_preset(RigConfig config, const std::string& preset) {
     config.match.preset = preset;
     return config;
 }
 
-/// The presets that a configuration allows, the best first.
+/// Presets that a configuration allows, best first.
 std::vector<std::string> allowed_presets(const RigConfig& config) {
     if (config.match.preset != "auto") return {config.match.preset};
     return {"quality", "balanced", "fast"};
@@ -96,7 +96,7 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
     if (config.match.steady && config.match.matcher != exact_matcher)
         steady_.emplace(shaders_, calibration.rectified.width_px, calibration.rectified.height_px);
     choose_matcher(config);
-    // The dark frames are no part of the stream.
+    // The dark frames are not part of the stream.
     right_sent_.reset();
     if (matcher_) matcher_->forget();
     if (steady_) steady_->forget();
@@ -108,10 +108,10 @@ void GpuStage::choose_matcher(const RigConfig& config) {
     for (const std::string& preset : allowed_presets(config)) {
         const RigConfig candidate = with_preset(config, preset);
         matcher_name_ = chosen_matcher(candidate);
-        matcher_.reset();  // before the next one takes its memory
+        matcher_.reset();  // releases its memory before the next matcher allocates
         matcher_ = chosen(matcher_name_, candidate, shaders_, calibration_.rectified);
-        // Drivers finish their programs at the first drawing: seconds, where the processor draws,
-        // in which real frames would be lost.
+        // Drivers finish compiling at the first draw call. With software rendering this takes
+        // seconds, in which real frames would be lost.
         if (!rectified_already_ || matcher_) match_dark_frame_ms();
         if (config.match.preset != "auto" || !matcher_) return;
         const double frame_ms = std::min(match_dark_frame_ms(), match_dark_frame_ms());
@@ -145,8 +145,8 @@ void GpuStage::prepare_intakes(const std::string& buffers, std::span<const LentP
     std::string reason = "the cameras do not lend their buffers";
     std::string why_not;
     if (buffers == "copy") why_not = "as configured";
-    // Mesa's drawing by the processor names the extension wherever there is a display driver, and
-    // falls over memory that is not that driver's own.
+    // Mesa's software renderer lists the extension wherever there is a display driver, and crashes
+    // on memory that belongs to another driver.
     else if (info_.is_software)
         why_not = "OpenGL ES is drawn by the processor, which reads no other driver's buffers";
     if (specimens.size() == 2) {
@@ -185,8 +185,8 @@ RigFrame GpuStage::process(StereoFrame frame) {
         result.disparity = std::move(frame.exact_disparity);
     }
     if (result.packed_colour.empty()) packer_.pack(result);
-    // Where the GPU times itself, packing goes on beside it and takes no part of its time;
-    // elsewhere a timer would have packing wait.
+    // With GPU timers, packing runs beside the GPU and does not count as matching time. With CPU
+    // timers, packing would have to wait for the matcher to be timed.
     result.times.match_ms =
         matcher_ && match_timer_.is_of_gpu()
             ? static_cast<float>(match_timer_.wait_ms())
@@ -230,7 +230,7 @@ void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     const Texture* disparity = matcher_ ? &matcher_->match(left, *right) : nullptr;
     if (disparity && steady_) disparity = &steady_->run(*disparity, left);
     if (is_timed) match_timer_.end();
-    // Everything is under way; what comes first is packed while the GPU matches.
+    // All GPU work is queued; the first image that arrives is packed while the GPU matches.
     if (disparity) disparity_readback_.begin(*disparity);
     result.colour = has_colour ? frame.left : ColourImage(colour_readback_.take({}, frame_limit()));
     if (is_right_due) result.right = ColourImage(right_readback_.take({}, frame_limit()));

@@ -22,44 +22,46 @@
 
 namespace vantage {
 
-/// Between two right pictures that travel. Of what stands still a few are enough.
+/// Time between two right images in the stream. Static scenery changes slowly, so two per second
+/// are enough.
 inline constexpr std::chrono::milliseconds right_period{500};
 
-/// Throws Error where the configuration asks for a matcher, preset or size that there is not, or
-/// for a matcher that the source does not serve. Needs no GPU.
+/// Throws Error if the matcher, preset or size of the configuration does not exist, or if the
+/// source cannot feed the matcher. Needs no GPU.
 void require_matching(const RigConfig& config, const StereoCalibration& calibration);
 
-/// The GPU's part of the road: upload, rectify, match, read back. Owns its GL context; made, used
-/// and destroyed on one thread.
+/// GPU stage of the rig's pipeline: upload, rectify, match and read back. It owns its GL context;
+/// create, use and destroy it on one thread.
 class GpuStage {
   public:
-    /// `specimens`: buffers such as the source lends its pictures in, left and right; none: it
-    /// lends none. Compiles all shaders, which takes from a second to some minutes, and tells
-    /// `observer` of each. Throws Error if there is no OpenGL ES, the config's matcher or
-    /// calibration does not fit, or it asks for an import that is not possible.
+    /// `specimens`: sample buffers that the source lends, left and right; empty if it lends none.
+    /// Compiles all shaders, which takes from a second to some minutes, and reports each shader to
+    /// `observer`. Throws Error if there is no OpenGL ES, if the matcher or calibration of the
+    /// configuration does not fit, or if it requires a buffer import that is not possible.
     GpuStage(const RigConfig& config, const StereoCalibration& calibration,
              std::span<const LentPicture> specimens = {}, ProgramObserver observer = {});
 
-    /// Rectifies and matches one instant, and packs its colour while the GPU matches; the right
-    /// picture's too, every right_period, by which hosts match the set. Fills picture, disparity,
-    /// geometry, pose and the times of these steps. Throws ContextLost if the GPU was reset or does
-    /// not finish: a new stage has to be made then.
+    /// Rectifies and matches one stereo frame, and packs its colour while the GPU matches. Every
+    /// right_period it packs the right image too, which hosts use to match the background. Fills in
+    /// image, disparity, geometry, pose and the times of these steps. Throws ContextLost if the GPU
+    /// was reset or does not finish; the caller then has to create a new stage.
     RigFrame process(StereoFrame frame);
 
-    /// Lent pictures of both sides so far.
+    /// Number of images so far that were imported from or copied out of lent buffers, both cameras
+    /// together.
     CameraIntake::Counts lent_pictures() const;
 
-    /// Lines for the start-up report: how the context was had, the renderer, the matcher.
+    /// Lines for the start-up report: how the context was created, the renderer and the matcher.
     std::vector<std::string> report() const;
 
   private:
-    /// How long a frame may take before the GPU counts as hung; a processor that draws may take any
-    /// time.
+    /// Time after which a frame counts as hung on the GPU. Software rendering has no limit.
     std::chrono::nanoseconds frame_limit() const;
     void rectify_and_match(const StereoFrame& frame, RigFrame& result);
-    /// Makes the matcher of the best preset whose frames take at most two thirds of a period.
+    /// Creates the matcher with the best preset whose frames take at most two thirds of a period.
     void choose_matcher(const RigConfig& config);
-    /// Matches black pictures, which has drivers finish their programs. Returns what it took.
+    /// Matches black images, so that drivers finish compiling their programs. Returns the time it
+    /// took in milliseconds.
     double match_dark_frame_ms();
     void prepare_intakes(const std::string& buffers, std::span<const LentPicture> specimens);
 
@@ -71,16 +73,17 @@ class GpuStage {
     int disparities_;
     bool rectified_already_;
     CameraIntake left_intake_, right_intake_;
-    std::string preset_report_;  ///< how the preset was chosen; empty: it was given
-    std::string intake_report_;  ///< empty: the source lends no pictures
+    std::string preset_report_;  ///< how the preset was chosen; empty if the configuration names it
+    std::string intake_report_;  ///< empty if the source lends no buffers
     RectifyPass rectify_left_, rectify_right_;
     GpuTimer rectify_timer_, match_timer_;
     Readback colour_readback_, right_readback_, disparity_readback_;
-    bool sends_right_;                   ///< not beside lossless colour
-    std::optional<TaiTime> right_sent_;  ///< exposure of the last right picture that was packed
+    bool sends_right_;                   ///< false with lossless colour
+    std::optional<TaiTime> right_sent_;  ///< exposure of the last right image that was packed
     ColourPacker packer_;
     std::optional<TemporalPass> steady_;
-    std::unique_ptr<Matcher> matcher_;  ///< null: the virtual stage's own disparity ("exact")
+    std::unique_ptr<Matcher>
+        matcher_;  ///< null if the virtual stage supplies the disparity ("exact")
 };
 
 }  // namespace vantage

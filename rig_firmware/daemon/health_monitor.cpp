@@ -19,7 +19,7 @@ std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folde
     return entries;
 }
 
-/// The whole number in a file of sysfs; empty where it is missing or cannot be read.
+/// Reads an integer from a file of sysfs; empty if the file is missing or cannot be read.
 std::optional<long> number_in(const std::filesystem::path& file) {
     std::ifstream stream(file);
     long number = 0;
@@ -51,7 +51,7 @@ HealthMonitor::HealthMonitor(RigHealth calibration, std::filesystem::path sys)
 
 RigHealth HealthMonitor::look(const RigCounters& counters, MonotonicTime now) {
     samples_.push_back({now, counters.captured, counters.published});
-    // The oldest that is kept is as old as the window, or the first of all.
+    // Keeps one sample that is at least as old as the rate window, or the first of all.
     while (samples_.size() > 2 && now - samples_[1].time >= rate_window) samples_.pop_front();
     RigHealth health = facts_;
     health.temperature_c = hottest_zone_c(sys_);

@@ -9,22 +9,22 @@
 
 namespace vantage {
 
-/// The hottest of the computer's thermal zones in degrees Celsius; empty where it has none. `sys`
-/// is where sysfs is mounted.
+/// Temperature of the computer's hottest thermal zone in degrees Celsius; empty if it has none.
+/// `sys` is the mount point of sysfs.
 std::optional<float> hottest_zone_c(const std::filesystem::path& sys = "/sys");
 
-/// Whether a supply alarm of the kernel's hardware monitors is on, as a Raspberry Pi raises it when
-/// its voltage sags.
+/// True while one of the kernel's hardware monitors reports under-voltage. A Raspberry Pi raises
+/// this alarm when its supply sags.
 bool has_under_voltage(const std::filesystem::path& sys = "/sys");
 
-/// Puts together what a rig tells hosts of its own state. Not thread-safe.
+/// Collects the health report that a rig sends to hosts. Not thread-safe.
 class HealthMonitor {
   public:
-    /// `calibration`: the facts that do not change.
+    /// `calibration`: the part of the report that never changes.
     explicit HealthMonitor(RigHealth calibration, std::filesystem::path sys = "/sys");
 
-    /// The state now, with the rates over the last five seconds of looks. To be asked about once a
-    /// second: it reads files.
+    /// Returns the current health with the rates of the last five seconds. It reads files; call it
+    /// once a second.
     RigHealth look(const RigCounters& counters, MonotonicTime now);
 
   private:

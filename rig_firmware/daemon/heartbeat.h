@@ -8,17 +8,17 @@
 
 namespace vantage {
 
-/// A worker's sign of life: it beats whenever the worker comes round its loop, with or without
-/// work. What a worker is stuck in (a driver, a GPU, a file system) keeps it from beating.
+/// Sign of life of a worker thread. The worker beats in every round of its loop, with or without
+/// work. A worker that hangs in a driver, a GPU or a file system stops beating. Thread-safe.
 class Heartbeat {
   public:
     explicit Heartbeat(std::string worker) : worker_(std::move(worker)) {}
 
     const std::string& worker() const { return worker_; }
     void beat(MonotonicTime now = MonotonicClock::now()) { last_ns_ = to_ns(now); }
-    /// The worker has not begun or has ended in order: nothing is expected of it.
+    /// Marks the worker as not started or as ended in order, so that no beat is expected.
     void rest() { last_ns_ = resting; }
-    /// Time since the last beat; 0 of a worker that rests.
+    /// Time since the last beat; 0 for a worker that has not started or has ended.
     std::chrono::nanoseconds silence(MonotonicTime now = MonotonicClock::now()) const {
         const std::int64_t last_ns = last_ns_;
         return std::chrono::nanoseconds(last_ns == resting ? 0 : to_ns(now) - last_ns);

@@ -34,10 +34,10 @@
 namespace vantage {
 namespace {
 
-// How often a waiting thread looks whether it is to end.
+// Period at which a waiting thread checks whether it has to stop.
 constexpr std::chrono::milliseconds wait_slice(100);
 
-/// What the parts after the source have to know of it.
+/// Properties of the source that the later stages need.
 struct SourceFacts {
     cv::Size size;
     std::vector<LentPicture> specimens;
@@ -49,7 +49,7 @@ struct CapturedFrame {
     MonotonicTime exposed{};
 };
 
-/// What of a rig's health stays as it is.
+/// The part of a rig's health report that never changes.
 RigHealth facts_of(const RigConfig& config, const std::optional<StereoCalibration>& calibration) {
     RigHealth facts;
     facts.program_version = version();
@@ -61,14 +61,15 @@ RigHealth facts_of(const RigConfig& config, const std::optional<StereoCalibratio
     return facts;
 }
 
-/// Takes hold frames with geometry, which a rig without calibration does not have.
+/// Reason for a rig without calibration: takes hold frames with geometry, which needs one.
 constexpr const char* keeps_nothing =
     "keeps nothing: [keep] needs a calibration, and this rig has calibration = \"none\"";
 
-/// What leaves the rig of one instant.
+/// Packets of one stereo frame that leave the rig.
 struct Instant {
-    std::optional<RigFrame> view;      ///< empty at a rig without calibration
-    std::optional<RigFrame> raw_pair;  ///< where a host asks for it, and at a rig without views
+    std::optional<RigFrame> view;  ///< empty on a rig without calibration
+    std::optional<RigFrame>
+        raw_pair;  ///< present if a host asks for it, and always on a rig without views
     MonotonicTime exposed{};
     const RigFrame& either() const { return view ? *view : *raw_pair; }
 };
@@ -87,8 +88,8 @@ RigFrame raw_pair_of(const StereoFrame& frame, const std::string& calibration_id
     return pair;
 }
 
-/// The lines of the start-up report. The publisher's thread asks for them, and outlives the rest of
-/// the daemon.
+/// Lines of the start-up report, shared between threads. The publisher's thread reads them and
+/// outlives the rest of the daemon. Thread-safe.
 class SharedLines {
   public:
     void set(std::vector<std::string> lines) {
@@ -122,7 +123,7 @@ struct RigDaemon::Impl {
                 [reader = std::make_shared<KeptReader>(config.keep.folder, config.name,
                                                        config.source.rate_hz)](
                     std::uint64_t from, std::uint64_t to) { return reader->first_of(from, to); });
-        // Hosts may be there already; what this rig is to do they learn before what it does.
+        // Hosts may be connected already; they learn the role of this rig before its state.
         RigSync first;
         first.rate_hz = config.source.rate_hz;
         first.tai_offset_s = read_kernel_clock().tai_offset_s;
@@ -145,8 +146,8 @@ struct RigDaemon::Impl {
                      const ClockModel::State& time_of_day) const;
     void stop();
 
-    /// Runs a thread's work under a name that debuggers and `top -H` show; what it throws ends the
-    /// road and is kept for rethrow_failure().
+    /// Runs a thread's work under a name that debuggers and `top -H` show. An exception stops the
+    /// pipeline and is kept for rethrow_failure().
     template <class Work>
     void guarded(Heartbeat& heart, Work work) {
         name_this_thread(heart.worker().c_str());
@@ -164,15 +165,15 @@ struct RigDaemon::Impl {
     void count(Change change) {
         const std::lock_guard lock(mutex);
         change(counters);
-        // Within the lock, so that no older count comes after a newer one.
+        // Reported under the lock, so that no older count follows a newer one.
         publisher.report(counters);
     }
 
     const RigConfig config;
     const std::uint64_t frame_limit;
     Publisher publisher;
-    const std::unique_ptr<RigTrigger> trigger;  ///< null: the role free
-    const std::unique_ptr<TakeKeeper> keeper;   ///< null: nothing is kept
+    const std::unique_ptr<RigTrigger> trigger;  ///< null for the role free
+    const std::unique_ptr<TakeKeeper> keeper;   ///< null if this rig records nothing
 
     BoundedQueue<CapturedFrame> captured{1};
     BoundedQueue<Instant> matched{1};
@@ -190,10 +191,10 @@ struct RigDaemon::Impl {
     std::uint64_t gpu_restarts = 0;
     std::exception_ptr failure;
 
-    MonotonicTime compiling_logged{};  ///< only the GPU's thread uses it
-    std::uint64_t refused_pulse = 0;   ///< only the thread that keeps in step uses it
-    ClockStepWatch capture_steps;      ///< only the thread that captures uses it
-    LogLimiter refused_frames{std::chrono::seconds(10)};  ///< only the thread that publishes
+    MonotonicTime compiling_logged{};                     ///< used by the GPU's thread only
+    std::uint64_t refused_pulse = 0;                      ///< used by the sync thread only
+    ClockStepWatch capture_steps;                         ///< used by the capture thread only
+    LogLimiter refused_frames{std::chrono::seconds(10)};  ///< used by the publishing thread only
 
     Heartbeat capture_heart{"capture"}, gpu_heart{"gpu"}, publish_heart{"publish"},
         sync_heart{"sync"};
@@ -248,7 +249,7 @@ void RigDaemon::Impl::capture(std::promise<SourceFacts> ready, const std::future
     try {
         source = make_source(config);
         source->use(trigger.get());
-        // Raw pairs are wanted as pictures.
+        // Raw pairs need images in memory, so an uncalibrated rig borrows no buffers.
         if (!config.uncalibrated) source->lend();
         const std::lock_guard lock(mutex);
         source_report = source->report();
@@ -258,7 +259,7 @@ void RigDaemon::Impl::capture(std::promise<SourceFacts> ready, const std::future
     }
     capture_heart.beat();
     ready.set_value({source->size(), source->specimens()});
-    // Frames from before the GPU's programs are built would only be thrown away.
+    // Frames that arrive before the GPU's programs are compiled are discarded.
     while (!stopping && go.wait_for(wait_slice) != std::future_status::ready) capture_heart.beat();
     while (!stopping && !source->ended()) {
         capture_heart.beat();
@@ -268,7 +269,7 @@ void RigDaemon::Impl::capture(std::promise<SourceFacts> ready, const std::future
 
 void RigDaemon::Impl::capture_one(StereoSource& source) {
     if (source.works_on_demand()) {
-        // Like sensors, it is exposed by pulses only.
+        // Like a triggered sensor, the virtual source exposes on pulses only.
         if (trigger && trigger->pulses() == 0) {
             std::this_thread::sleep_for(wait_slice);
             return;
@@ -278,7 +279,7 @@ void RigDaemon::Impl::capture_one(StereoSource& source) {
     (void)capture_steps.look();
     std::optional<StereoFrame> frame = source.next(wait_slice);
     const bool clock_was_set = capture_steps.look().has_value();
-    // Counted before it is handed on: what is published has been captured at any moment.
+    // Counted before the frame is handed on, so that `captured` is never below `published`.
     count([&](RigCounters& c) {
         c.missed = source.missed();
         c.captured += frame.has_value();
@@ -286,16 +287,16 @@ void RigDaemon::Impl::capture_one(StereoSource& source) {
         sensor_clock = source.clock();
     });
     if (!frame) return;
-    // The index of its pulse was computed with the clock as it was before the step.
+    // The clock was set since the index of this frame's pulse was computed.
     if (clock_was_set) return count([](RigCounters& c) { ++c.late; });
     const MonotonicTime exposed = frame->exposed;
-    // Some drivers stamp a picture with the end of its period, which is still to come.
+    // Some drivers stamp a frame with the end of its period, which is still in the future.
     const auto age_ms = static_cast<float>(std::max(0.0, ms_since(exposed)));
     if (captured.push({std::move(*frame), age_ms, exposed}))
         count([](RigCounters& c) { ++c.late; });
 }
 
-/// Hands the host's first pulse to the trigger, and the state of pulses, clocks and computer to
+/// Passes the host's first pulse to the trigger, and the state of pulses, clocks and computer to
 /// the host.
 void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
     constexpr std::chrono::milliseconds look_every(50);
@@ -303,7 +304,7 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
     std::optional<PtpReading> clock;
     int tai_offset_s = 0;
     HealthMonitor monitor(facts);
-    ClockModel time_of_day;  // Nothing sets CLOCK_MONOTONIC.
+    ClockModel time_of_day;  // CLOCK_MONOTONIC is never set.
     for (int look = 0; !stopping && !finished; ++look) {
         sync_heart.beat();
         if (look % looks_per_second == 0) {
@@ -332,7 +333,7 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
                 "{}: this computer's clock was set by {:+.1f} ms; frames before and after it are "
                 "counted by different clocks",
                 config.name, time_of_day.state().last_step_ns / 1e6);
-            // A first pulse that was refused by the old clock may be possible by the new one.
+            // A first pulse that was refused with the old clock may be possible with the new one.
             refused_pulse = 0;
         }
         const RigSync now = sync_now(clock, tai_offset_s, time_of_day.state());
@@ -345,7 +346,8 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
     }
 }
 
-/// 0: no host announced one. What a host announces wrongly is its fault, and no reason to end.
+/// `first_pulse` is 0 if no host announced one. A wrong announcement is the host's error and does
+/// not end the daemon.
 void RigDaemon::Impl::announce(std::uint64_t first_pulse) {
     if (first_pulse == 0 || first_pulse == refused_pulse) return;
     try {
@@ -402,7 +404,7 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
     }
     gpu_heart.beat();
     ready.set_value();
-    // Resets in a row, without a frame between them, after which a new context is of no use.
+    // After this many resets without a frame between them, a new context does not help.
     constexpr int most_resets_in_a_row = 3;
     int resets_in_a_row = 0;
     while (!(captured.closed() && captured.size() == 0)) {
@@ -438,7 +440,7 @@ void RigDaemon::Impl::run_gpu(const std::optional<StereoCalibration>& calibratio
     }
 }
 
-/// Compiles the shaders, in a new context where there was one already.
+/// Compiles the shaders; creates a new GL context first if there was one before.
 void RigDaemon::Impl::set_up_gpu(std::optional<GpuStage>& gpu, const StereoCalibration& calibration,
                                  const std::vector<LentPicture>& specimens) {
     gpu.reset();
@@ -459,7 +461,7 @@ void RigDaemon::Impl::set_up_gpu(std::optional<GpuStage>& gpu, const StereoCalib
 }
 
 void RigDaemon::Impl::note_compiling(const ProgramProgress& progress) {
-    // The longest that one shader may take before its thread counts as stuck.
+    // A shader that compiles for longer than this counts as stuck.
     constexpr std::chrono::minutes longest_compiling(5);
     constexpr std::chrono::seconds log_every(1);
     const MonotonicTime now = MonotonicClock::now();
@@ -517,7 +519,7 @@ void RigDaemon::Impl::publish() {
         capture_ms.add(times.capture_ms);
         rectify_ms.add(times.rectify_ms);
         match_ms.add(times.match_ms);
-        // And what of it was done while the GPU matched.
+        // The second summand is the packing that was done while the GPU matched.
         pack_ms.add(to_ms(packing) + times.pack_ms);
         latency_ms.add(exposure_to_published_ms);
     }
@@ -525,8 +527,8 @@ void RigDaemon::Impl::publish() {
 
 void RigDaemon::Impl::stop() {
     stopping = true;
-    // The source's thread ends first and closes what it feeds; so each stage drains what it was
-    // given.
+    // Threads end in the order of the pipeline: the source's thread closes its queue, and each
+    // stage drains the queue before it.
     if (capture_thread.joinable()) capture_thread.join();
     captured.close();
     if (gpu_thread.joinable()) gpu_thread.join();

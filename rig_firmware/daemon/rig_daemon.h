@@ -14,47 +14,48 @@
 namespace vantage {
 
 struct DaemonStatus {
-    PublisherStatus publisher;  ///< its rig counters are the daemon's whole book
+    PublisherStatus publisher;  ///< its rig counters are the complete counts of the daemon
     std::vector<SourceCounter> source_counters;
     RigSync sync;
-    /// What the daemon does before its first frame ("compiling shaders, 7 of 21"); empty: it works.
+    /// Start-up step before the first frame ("compiling shaders, 7 of 21"); empty once frames flow.
     std::string starting;
-    std::string keeps;  ///< of the rig's own take, one line; empty: it keeps none
+    std::string
+        keeps;  ///< status of the rig's own recording in one line; empty if it records nothing
     std::uint64_t kept_files_erased = 0;
-    Percentiles capture_ms;  ///< exposure to delivered
-    Percentiles rectify_ms;  ///< upload, rectify
-    Percentiles match_ms;    ///< match, read back
-    Percentiles pack_ms;     ///< encode, hand to the publisher
-    Percentiles latency_ms;  ///< exposure to handed to the publisher
+    Percentiles capture_ms;  ///< from exposure until the source delivers
+    Percentiles rectify_ms;  ///< upload and rectify
+    Percentiles match_ms;    ///< match and read back
+    Percentiles pack_ms;     ///< encode and pass to the publisher
+    Percentiles latency_ms;  ///< from exposure until the publisher has the frame
 };
 
-/// The road of a rig: capture -> GPU (rectify, match) -> pack and publish, a thread each. Between
-/// two of them waits at most one frame; a newer one takes its place, and the old one is counted as
-/// late. Hosts are served from the start; capturing begins once the GPU's shaders are compiled. A
-/// GPU that was reset or hangs is counted (source counter "gpu_restarts") and set up anew. At every
-/// stop
+/// Pipeline of a rig: capture -> GPU (rectify, match) -> pack and publish, with one thread for
+/// each. At most one frame waits between two stages; a newer frame replaces it, and the old one is
+/// counted as late. Hosts are served from the start; capture begins once the GPU's shaders are
+/// compiled. A GPU that was reset or hangs is counted (source counter "gpu_restarts") and
+/// initialised again. After every stop
 ///     captured = published + late.
 class RigDaemon {
   public:
-    /// Returns once hosts can connect, while shaders may still be compiled. Throws Error for
-    /// whatever of the config cannot be had; what the GPU refuses ends the daemon later. It ends by
-    /// itself after `frame_limit` published frames, if that is not 0.
+    /// Returns once hosts can connect, while shaders may still be compiled. Throws Error if a part
+    /// of the configuration is not available; a GPU error ends the daemon later. The daemon ends by
+    /// itself after `frame_limit` published frames; 0 means no limit.
     explicit RigDaemon(const RigConfig& config, std::uint64_t frame_limit = 0);
-    /// Stops the road; frames under way are finished or counted.
+    /// Stops the pipeline; frames in progress are finished or counted as late.
     ~RigDaemon();
 
-    /// False once the source has come to its end and every frame is through, the limit is reached,
-    /// or a part has failed.
+    /// False once the source has ended and every frame has passed, the limit is reached, or a part
+    /// has failed.
     bool running() const;
-    /// Throws the Error that ended the road, if one did.
+    /// Throws the Error that ended the pipeline, if there is one.
     void rethrow_failure() const;
     void stop();
-    /// The thread that has not come round its loop for the longest time, if that is longer than
-    /// `limit`; empty if all have. Locks nothing that such a thread could hold.
+    /// Name of the thread that has not passed its loop for the longest time, if that time exceeds
+    /// `limit`; else empty. Takes no lock that a stuck thread could hold.
     std::string stuck_worker(std::chrono::nanoseconds limit) const;
 
     DaemonStatus status() const;
-    /// Where hosts connect, with the port that was bound.
+    /// Endpoint that hosts connect to, with the port that was bound.
     std::string endpoint() const;
     /// Lines for the start-up report.
     std::vector<std::string> report() const;

@@ -25,7 +25,7 @@ namespace {
 constexpr std::chrono::seconds probe_limit{20};
 constexpr std::size_t max_config_bytes = 1 << 18;
 
-/// A file of this process's own, removed with it.
+/// Temporary file of this process, removed by the destructor.
 class ScratchFile {
   public:
     ScratchFile() : path_((std::filesystem::temp_directory_path() / "vantage-XXXXXX").string()) {
@@ -42,7 +42,8 @@ class ScratchFile {
     std::string path_;
 };
 
-/// In a process of its own: a probe opens devices and contexts that this one may hold.
+/// Runs the probe in a child process, since it opens devices and contexts that this process may
+/// hold.
 nlohmann::json probe(const std::atomic<bool>& stopping) {
     const ScratchFile out;
     ChildProcess child({.program = program_folder() / "vantage-rig",
@@ -87,7 +88,7 @@ std::string rig_report(const RigConfig& config, const std::vector<std::string>& 
     for (const std::string& line : recent_log_lines())
         report["log"].push_back(without_secrets(line));
     add("probe", [&] { return probe(stopping); });
-    // Device names and files are bytes that need not be UTF-8.
+    // Device names and files are bytes that need not be valid UTF-8.
     constexpr auto replace = nlohmann::json::error_handler_t::replace;
     std::string text = report.dump(2, ' ', false, replace);
     if (text.size() <= max_report_bytes) return text;

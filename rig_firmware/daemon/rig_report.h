@@ -8,10 +8,10 @@
 
 namespace vantage {
 
-/// What a rig says of itself for help, as JSON: version, its configuration, what it said at start,
-/// its last log lines, the computer's kernel and system, and what `vantage-rig probe` finds (run
-/// beside the daemon, 20 s at most, and not once this is to stop). Nothing secret
-/// (without_secrets). At most max_report_bytes.
+/// Support report of a rig, as JSON: version, configuration, start-up report, last log lines,
+/// kernel and system, and the output of `vantage-rig probe`. The probe runs in a child process for
+/// at most 20 s, and is skipped once `stopping` is true. Secrets are removed (without_secrets). The
+/// report has at most max_report_bytes.
 std::string rig_report(const RigConfig& config, const std::vector<std::string>& said_at_start,
                        const std::atomic<bool>& stopping);
 

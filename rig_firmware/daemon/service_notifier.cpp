@@ -16,7 +16,7 @@ std::string environment(const char* name) {
     return value ? value : "";
 }
 
-/// Half of what the watchdog allows; a status line every few seconds where there is none.
+/// Half of the watchdog's timeout; without a watchdog, a status line every few seconds.
 std::chrono::nanoseconds notify_period() {
     const std::string limit_us = environment("WATCHDOG_USEC");
     constexpr std::chrono::seconds without_watchdog(5);
@@ -51,7 +51,7 @@ void ServiceNotifier::send(const std::string& message) const {
     if (socket_.empty() || socket_.size() >= sizeof address.sun_path) return;
     address.sun_family = AF_UNIX;
     std::memcpy(address.sun_path, socket_.data(), socket_.size());
-    if (socket_[0] == '@') address.sun_path[0] = '\0';  // an abstract one
+    if (socket_[0] == '@') address.sun_path[0] = '\0';  // abstract socket
     const UniqueFd fd(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
     const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + socket_.size());
     ::sendto(fd.get(), message.data(), message.size(), MSG_NOSIGNAL,

@@ -6,20 +6,20 @@
 
 namespace vantage {
 
-/// Tells the service manager how this program fares (sd_notify's protocol, on $NOTIFY_SOCKET): that
-/// it stands, and that it is alive, by which systemd's watchdog goes. Does nothing where no service
-/// manager started it.
+/// Reports readiness, status and signs of life to the service manager by sd_notify's protocol on
+/// $NOTIFY_SOCKET. The signs of life feed systemd's watchdog. Does nothing if no service manager
+/// started the program.
 class ServiceNotifier {
   public:
     ServiceNotifier();
 
     void ready();
     void stopping();
-    /// To be called often: sends a sign of life and the status line whenever half the watchdog's
-    /// time has passed.
+    /// Sends a sign of life and the status line once half of the watchdog's timeout has passed.
+    /// Call it often.
     void alive(const std::string& status);
-    /// In its place while a part of the program is stuck: the status line without the sign of life,
-    /// so that the watchdog restarts the program.
+    /// Sends the status line without a sign of life, so that the watchdog restarts the program.
+    /// Call it instead of alive() while a part of the program is stuck.
     void stuck(const std::string& status);
 
   private:

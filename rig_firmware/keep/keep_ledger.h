@@ -28,10 +28,10 @@ class KeepLedger {
     void reconcile(const std::vector<KeptFile>& files);
     /// Adds to the recorded time.
     void advance(double seconds) { kept_s_ += seconds; }
-    /// Throws Error if it cannot be written.
+    /// Writes the ledger. Throws Error if it cannot be written.
     void save() const;
 
-    /// The oldest first.
+    /// Entries, oldest first.
     const std::vector<Entry>& entries() const { return entries_; }
     double age_s(const Entry& entry) const { return kept_s_ - entry.ended_s; }
 

@@ -10,11 +10,13 @@
 namespace vantage {
 namespace {
 
-/// An index of a file is some megabytes; two hosts fetch from two places.
+/// Files that stay open. Their indexes take some megabytes each; two hosts fetch from two places at
+/// once.
 constexpr std::size_t most_open = 8;
-/// A file that grows is read anew so often at most.
+/// Shortest time after which a growing file is read again.
 constexpr std::chrono::seconds growing_file_period{1};
-/// Names have whole seconds, frames wait before they are written, and a clock may be set.
+/// Tolerance between a file's name and its frames: names have whole seconds, frames wait before
+/// they are written, and a clock may be set.
 constexpr std::chrono::seconds clock_doubt{120};
 
 std::chrono::nanoseconds since_1970(std::filesystem::file_time_type time) {
@@ -48,7 +50,7 @@ std::shared_ptr<const TakeReader> KeptReader::open(const std::filesystem::path& 
         if (take->facts().rigs.size() == 1 && take->facts().rigs[0].name == rig_)
             opened.take = std::move(take);
     } catch (const Error& error) {
-        // One that was begun this moment has no head yet.
+        // A file that was just created has no header yet.
         log_info("what this rig keeps: {}", error.what());
     }
     opened_.push_front(opened);
@@ -58,7 +60,7 @@ std::shared_ptr<const TakeReader> KeptReader::open(const std::filesystem::path& 
 
 std::shared_ptr<const KeptParts> KeptReader::first_of(std::uint64_t from, std::uint64_t to) {
     const PulseGrid pulses(rate_hz_);
-    // What the stage's clock is ahead of the one that files are named by.
+    // Offset of the stage's clock from the system clock, which names the files.
     const std::chrono::nanoseconds ahead =
         TaiClock::now().time_since_epoch() - std::chrono::system_clock::now().time_since_epoch();
     const auto begin = pulses.time_of(from).time_since_epoch() - ahead - clock_doubt;

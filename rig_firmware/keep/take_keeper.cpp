@@ -16,16 +16,16 @@ namespace vantage {
 namespace {
 
 constexpr std::chrono::milliseconds look_every{100};
-/// A disk that failed is left alone for so long.
+/// Time without a new attempt after the disk has failed.
 constexpr std::chrono::seconds patience_with_disk{10};
 /// Free space of the disk below which the oldest file is erased.
 constexpr double least_room_mb = 500;
 /// A pulse index that is lower than the last one by more than this shows that the clock was set
 /// back; frames without a pulse of their own may repeat an index.
 constexpr std::uint64_t clock_step_pulses = 2;
-/// Frames that wait while the next file is opened; the oldest is dropped beyond this.
+/// Frames that can wait while the next file is opened. Beyond this number the oldest is dropped.
 constexpr std::size_t most_held = 1000;
-/// What may come between the end of a file and the begin of the next.
+/// Longest expected gap between the end of a file and the start of the next one.
 constexpr std::chrono::seconds between_files{30};
 
 TakeRecorder::Settings recorder_settings(const std::string& rig, double rate_hz) {
@@ -109,7 +109,7 @@ void TakeKeeper::run() {
         ledger_.advance(std::chrono::duration<double>(now - std::exchange(looked, now)).count());
         const TakePhase phase = recorder_.state().phase;
         const bool has_failed = phase == TakePhase::failed;
-        // Nothing is published, so there is nothing to end.
+        // Nothing is published, so there is no file to finish.
         if (phase == TakePhase::opening) begun = now;
         const bool is_due = has_failed ? now - begun >= patience_with_disk : now - begun >= length;
         if (!is_due && !pulses_go_back) continue;

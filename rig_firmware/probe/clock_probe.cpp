@@ -110,7 +110,8 @@ void add_ptp(ProbePart& part) {
             "microseconds");
 }
 
-/// Tried on a thread that ends with it: a limit, a capability or a container may each decide.
+/// Tries real-time priority on a temporary thread, since a limit, a capability or a container may
+/// each forbid it.
 bool can_have_realtime_priority() {
     int refused = 0;
     std::thread([&] {
@@ -120,7 +121,8 @@ bool can_have_realtime_priority() {
     return refused == 0;
 }
 
-/// Tried as well, as the trigger does it: a limit and a capability may each decide.
+/// Tries to lock memory in the same way as the trigger, since a limit or a capability may forbid
+/// it.
 bool can_lock_memory() {
     if (::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) return false;
     ::munlockall();

@@ -9,7 +9,7 @@
 namespace vantage {
 namespace {
 
-/// What a camera's buffer needs to become a texture without a copy.
+/// Extensions that turn a camera's buffer into a texture without a copy.
 constexpr std::array<const char*, 2> import_by_egl = {"EGL_EXT_image_dma_buf_import",
                                                       "EGL_EXT_image_dma_buf_import_modifiers"};
 constexpr std::array<const char*, 2> import_by_gl = {"GL_OES_EGL_image",

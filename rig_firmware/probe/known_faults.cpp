@@ -14,13 +14,13 @@ namespace vantage {
 namespace {
 
 constexpr const char* trigger_parameter = "/sys/module/imx296/parameters/trigger_mode";
-/// That vantage-ptp.service starts ptp4l with.
+/// Configuration that vantage-ptp.service starts ptp4l with.
 constexpr const char* ptp_configuration = "/etc/vantage/ptp/rig.conf";
 
-// Each with the place where it was found out.
+// Each fault names the public tracker that describes it.
 /// raspberrypi/linux#6010: merged in March 2024.
 constexpr VersionNumber frame_ends_mended{6, 6, 20};
-/// raspberrypi/linux#7515: hardware stamps of packets that are sent time out from here on.
+/// raspberrypi/linux#7515: from this version on, hardware time stamps of sent packets time out.
 constexpr VersionNumber cm5_stamps_broken{6, 12, 0};
 /// jclark/rpi-cm4-ptp-guide#33
 constexpr VersionNumber two_step_default{4, 0, 0};

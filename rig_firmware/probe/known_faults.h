@@ -7,28 +7,28 @@
 
 namespace vantage {
 
-/// What decides which faults of kernels and drivers this computer has.
+/// Properties of this computer that decide which known kernel and driver faults it has.
 struct ComputerFacts {
-    std::string model;                  ///< of the device tree; empty: no such board
+    std::string model;                  ///< from the device tree; empty if there is none
     std::string kernel_release;         ///< "6.6.20+rpt-rpi-v8"
-    bool has_triggered_imx296 = false;  ///< the sensor's driver waits for pulses
-    std::string linuxptp_version;       ///< of the package; empty: not there
+    bool has_triggered_imx296 = false;  ///< the driver of the sensor waits for pulses
+    std::string linuxptp_version;       ///< version of the package; empty if it is not installed
     bool has_one_step_ptp = false;      ///< rig.conf tells ptp4l twoStepFlag 0
 };
 ComputerFacts this_computer();
 
-/// The first two or three numbers of a version; what is missing is 0. Versions compare as numbers.
+/// First two or three numbers of a version; missing ones are 0. Versions compare number by number.
 struct VersionNumber {
     int major = 0, minor = 0, patch = 0;
     auto operator<=>(const VersionNumber&) const = default;
 };
 VersionNumber version_number(const std::string& text);
 
-/// Whether a configuration of ptp4l sets twoStepFlag to 0: the last line that sets it holds.
+/// True if this ptp4l configuration sets twoStepFlag to 0. The last line that sets the flag counts.
 bool sets_one_step(std::istream& ptp4l_configuration);
 
-/// What is known of this very board, kernel and driver from public trackers: `unfit` spoils a rig
-/// and says the mend, `notes` are to be known.
+/// Known faults of this board, kernel and drivers, from public trackers. `unfit` faults make a rig
+/// unusable and name the mend; `notes` are for information.
 struct KnownFaults {
     std::vector<std::string> unfit, notes;
 };

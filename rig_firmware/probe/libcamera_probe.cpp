@@ -7,7 +7,7 @@
 namespace vantage {
 namespace {
 
-/// Pictures that a camera can deliver raw or processed, by format.
+/// Raw and processed formats of a camera with their sizes, as JSON.
 nlohmann::json modes_of(libcamera::Camera& camera) {
     nlohmann::json modes = nlohmann::json::array();
     for (const auto role : {libcamera::StreamRole::Raw, libcamera::StreamRole::VideoRecording}) {
@@ -41,7 +41,7 @@ ProbePart probe_libcamera() {
                    .facts = nlohmann::json::array(),
                    .lines = {},
                    .unfit = {}};
-    // It logs to standard error by itself, where this command has nothing to say.
+    // libcamera logs to standard error by default; this command prints its own report only.
     libcamera::logSetTarget(libcamera::LoggingTargetNone);
     libcamera::CameraManager manager;
     if (const int code = manager.start(); code != 0) {

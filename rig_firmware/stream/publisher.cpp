@@ -17,11 +17,11 @@
 namespace vantage {
 namespace {
 
-/// Of the thread that reads what hosts fetch.
+/// Nice value of the thread that reads recorded frames for hosts.
 constexpr int fetch_nice = 10;
 
-/// What a daemon opens after this point: sockets of ZeroMQ with some hosts, the GPU, cameras,
-/// files.
+/// File descriptors that a daemon opens after this point: ZeroMQ sockets for some hosts, the GPU,
+/// cameras and files.
 constexpr std::size_t descriptors_of_a_daemon = 48;
 
 FrameServer::Settings settings_of(const RigConfig::Stream& config) {
@@ -53,7 +53,7 @@ struct Publisher::Impl {
         if (report_thread.joinable()) report_thread.join();
     }
 
-    /// What hosts fetch comes behind all else that this computer does.
+    /// Serves fetch requests at low priority, after all other work of this computer.
     void look_up_kept() {
         name_this_thread("fetch");
         make_this_thread_nice(fetch_nice);

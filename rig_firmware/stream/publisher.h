@@ -15,79 +15,79 @@
 namespace vantage {
 
 struct PublisherStatus {
-    RigCounters counters;  ///< the daemon's last, with `published` and `send_dropped`
+    RigCounters counters;  ///< last counters of the daemon, with `published` and `send_dropped`
     std::vector<HostLinks::HostStatus> hosts;
-    std::uint64_t malformed = 0;            ///< messages that were no host's
-    std::uint64_t refused_fetches = 0;      ///< of hosts, where this rig keeps nothing
-    std::uint64_t refused_connections = 0;  ///< of strangers
+    std::uint64_t malformed = 0;  ///< messages that do not follow the protocol
+    std::uint64_t refused_fetches =
+        0;  ///< fetch requests from hosts while this rig records nothing
+    std::uint64_t refused_connections = 0;  ///< connections without an authorized key
 };
 
-/// The frame holds a value that may not travel: this frame is lost, and publishing goes on.
+/// Error for a frame with a value that the wire format forbids. The frame is lost; publishing
+/// continues.
 class FrameRefused : public Error {
   public:
     using Error::Error;
 };
 
-/// The first frame that is kept of the pulses `from` to before `to`; null if none is. May take its
-/// time: it is called on a thread that has nothing else to do.
+/// Returns the first recorded frame whose pulse is at least `from` and below `to`; null if there is
+/// none. It may block: the publisher calls it on a separate thread.
 using KeptLookup =
     std::function<std::shared_ptr<const KeptParts>(std::uint64_t from, std::uint64_t to)>;
 
-/// What the rig says of itself for help, at most max_report_bytes. May take its time, as above, but
-/// no longer once it is to stop.
+/// Returns the rig's support report, at most max_report_bytes. It may block until `stopping` is
+/// true.
 using ReportMaker = std::function<std::string(const std::atomic<bool>& stopping)>;
 
-/// Offers a rig's frames to any number of hosts. Each is sent frames as fast as it takes them and
-/// no faster: a slow one loses its oldest waiting frames, which are counted, and holds up neither
-/// the rig nor another host. With keys, only authorized hosts get in and everything is encrypted;
-/// without, only programs on this computer can be served.
+/// Network server that sends a rig's frames to any number of hosts. Each host gets frames as fast
+/// as it takes them: a slow one loses its oldest waiting frames, which are counted, and delays
+/// neither the rig nor another host. With keys, only authorized hosts can connect and everything is
+/// encrypted; without keys, only programs on this computer can connect.
 class Publisher {
   public:
-    /// Throws Error if the endpoint cannot be bound, a key or list cannot be read, or an endpoint
-    /// beyond loopback is asked for without keys.
+    /// Throws Error if the endpoint cannot be bound, if a key or a list of keys cannot be read, or
+    /// if the endpoint is beyond loopback without keys.
     Publisher(const RigConfig::Stream& config, std::string rig_name);
     ~Publisher();
 
-    /// Packs on the calling thread and never waits for the network. `rig`, `session`, `published`,
-    /// pack_ms and two of the counters are filled in here. Throws FrameRefused naming the first
-    /// value of the frame that may not travel, or Error, why publishing came to an end. A raw pair
-    /// that no host asks for is not packed, and null returned; else the packed frame. One thread at
-    /// a time.
+    /// Packs a frame on the calling thread and queues it; never waits for the network. Fills in
+    /// `rig`, `session`, `published`, pack_ms and two of the counters. Returns the packed frame, or
+    /// null for a raw pair that no host asks for. Throws FrameRefused with the first forbidden
+    /// value of the frame, or the Error that ended publishing. Call it from one thread at a time.
     std::shared_ptr<const PackedFrame> publish(RigFrame frame);
 
-    /// A host asks for the raw pair of this pulse. Any thread.
+    /// True if a host asks for the raw pair of this pulse. Any thread.
     bool wants_raw_pair(std::uint64_t trigger_index) const;
 
-    /// The rig has no views: hosts that ask for them are refused with this reason, and publish() is
-    /// given raw pairs only.
+    /// Declares that the rig has no views: requests for views are refused with this reason, and
+    /// publish() gets raw pairs only.
     void serve_raw_pairs_only(std::string reason);
 
-    /// From now on hosts may fetch what this rig keeps. Once.
+    /// Lets hosts fetch recorded frames from now on. Call it at most once.
     void serve_kept(KeptLookup lookup);
 
-    /// From now on hosts may ask for a report. Once.
+    /// Lets hosts ask for a support report from now on. Call it at most once.
     void serve_reports(ReportMaker make);
 
-    /// Tells hosts the daemon's counts (captured, missed, late) also while no frame is published.
-    /// Any thread.
+    /// Sends the daemon's counters (captured, missed, late) to hosts, also while no frame is
+    /// published. Any thread.
     void report(const RigCounters& counters);
 
-    /// Tells hosts, in every message and frame, how this rig stands to clock and pulses. Any
-    /// thread.
+    /// Sends the rig's clock and pulse state to hosts, in every message and frame. Any thread.
     void report(const RigSync& sync);
-    /// And how its computer and its calibration are. Any thread.
+    /// Sends the health of the rig's computer and calibration to hosts. Any thread.
     void report(const RigHealth& health);
 
-    /// The first pulse of the take as a host last announced it; 0: none did. Any thread.
+    /// First pulse of the stage, as a host last announced it; 0 if none did. Any thread.
     std::uint64_t announced_pulse() const;
 
     PublisherStatus status() const;
 
-    /// Random per start.
+    /// Random number of this start of the rig.
     std::uint64_t session() const;
-    /// With the port that was bound, where the configuration left it open.
+    /// Endpoint with the port that was bound, also if the configuration left the port open.
     std::string endpoint() const;
-    /// Z85; empty without keys.
+    /// Public key in Z85; empty without keys.
     std::string public_key() const;
 
   private:

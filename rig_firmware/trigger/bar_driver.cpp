@@ -36,7 +36,8 @@ struct BarDriver::Impl {
             TaiTime now = TaiClock::now();
             while (now < next && next - now <= spin) now = TaiClock::now();
             const std::int64_t step = now.time_since_epoch() / bar.step();
-            if (step == last) continue;  // woken early, or the clock was set back a little
+            if (step == last)
+                continue;  // woken early, or the clock was set back by less than a step
             const std::uint32_t wanted = SyncBar::lit_in(bar.step_at(now));
             lines->set(wanted, wanted ^ lit);
             lit = wanted;
@@ -54,7 +55,7 @@ struct BarDriver::Impl {
     const std::chrono::nanoseconds spin;
     std::vector<std::string> realtime_report = {};
 
-    mutable InheritingMutex mutex = {};  ///< of what follows
+    mutable InheritingMutex mutex = {};  ///< guards the members below
     std::uint64_t shown = 0, skipped = 0;
     PercentileRecorder lateness_us{1 << 16};
     std::exception_ptr failure = nullptr;
@@ -83,7 +84,7 @@ void BarDriver::stop() {
 }
 
 BarStatus BarDriver::status() const {
-    // Percentiles are worked out from a copy: the counting thread is not to wait for a sorting.
+    // Percentiles are computed from a copy, so that the counting thread never waits for a sort.
     PercentileRecorder lateness_us;
     BarStatus status;
     {

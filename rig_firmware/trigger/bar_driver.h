@@ -13,15 +13,15 @@
 namespace vantage {
 
 struct BarStatus {
-    std::uint64_t shown = 0;    ///< steps
-    std::uint64_t skipped = 0;  ///< steps that a late wake-up passed over
-    Percentiles lateness_us;    ///< of the changes behind their time
+    std::uint64_t shown = 0;    ///< steps shown
+    std::uint64_t skipped = 0;  ///< steps that passed before the thread woke up
+    Percentiles lateness_us;    ///< time of each change after its deadline
 };
 
-/// Counts the steps of a bar on a thread of its own, by CLOCK_TAI: absolute deadlines, SCHED_FIFO
-/// and locked memory as far as permitted, a busy wait of `spin` before each step. What is late is
-/// never made up for by a hurry: the lines show the step that it is, and steps that passed are
-/// counted. All LEDs are dark at the end.
+/// Counter that drives the LEDs of a sync bar on a thread of its own, by CLOCK_TAI. It uses
+/// absolute deadlines, SCHED_FIFO and locked memory as far as permitted, and a busy wait of `spin`
+/// before each step. After a late wake-up the LEDs show the current step, and the steps that passed
+/// are counted as skipped. All LEDs are dark at the end.
 class BarDriver {
   public:
     BarDriver(const SyncBar& bar, std::unique_ptr<BarLines> lines, std::chrono::nanoseconds spin,
@@ -30,7 +30,7 @@ class BarDriver {
 
     void stop();
     BarStatus status() const;
-    /// Throws the Error that ended the counting, if one did.
+    /// Throws the Error that ended the thread, if there is one.
     void rethrow_failure() const;
     /// Lines for the start-up report.
     std::vector<std::string> report() const;

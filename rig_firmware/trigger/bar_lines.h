@@ -7,22 +7,22 @@
 
 namespace vantage {
 
-/// Where the LEDs of a bar hang: GPIO lines, or nowhere.
+/// Output of a sync bar's LEDs: GPIO lines, or none for a dry run.
 class BarLines {
   public:
     virtual ~BarLines() = default;
-    /// Lights the LEDs of the set bits, of those in `changed`; the others stay. Throws Error when
-    /// the lines are gone.
+    /// Sets the LEDs in `changed` to their bits in `lit`; the others stay. Throws Error if the
+    /// lines are gone.
     virtual void set(std::uint32_t lit, std::uint32_t changed) = 0;
     virtual std::string text() const = 0;
 };
 
-/// These lines of a chip, by name, LED 0 (the fastest) first, as outputs, dark. Throws Error that
-/// says who holds one if it is taken.
+/// Opens lines of a chip by name as outputs, LED 0 (the fastest) first, all dark. Throws Error that
+/// names the holder if a line is taken.
 std::unique_ptr<BarLines> open_bar_lines(const std::string& chip,
                                          const std::vector<std::string>& names, bool active_low);
 
-/// No lines, only the timing.
+/// Returns an output without lines, for timing only.
 std::unique_ptr<BarLines> pretend_bar_lines();
 
 }  // namespace vantage

@@ -23,7 +23,7 @@ std::optional<EdgeWatcher::Edge> EdgeWatcher::next(std::chrono::nanoseconds time
     const gpiod::edge_event& event = buffer_.get_event(0);
     Edge edge;
     edge.time = monotonic_from_ns(static_cast<std::int64_t>(event.timestamp_ns().ns()));
-    // Edges are of the logical level, which active_low has turned round already.
+    // Edges refer to the logical level; active_low has already inverted it.
     edge.leading = event.type() == gpiod::edge_event::event_type::RISING_EDGE;
     if (last_number_) edge.lost = event.line_seqno() - *last_number_ - 1;
     last_number_ = event.line_seqno();

@@ -11,18 +11,18 @@
 
 namespace vantage {
 
-/// The leading edges of pulses that come over a wire, stamped by the kernel.
+/// Receives the edges of wired trigger pulses with the kernel's time stamps.
 class EdgeWatcher {
   public:
-    /// Takes the line of [trigger] as an input. Throws Error if it cannot be had.
+    /// Opens the line of [trigger] as an input. Throws Error if it is not available.
     explicit EdgeWatcher(const RigConfig::Trigger& trigger);
 
     struct Edge {
         MonotonicTime time{};
-        bool leading = true;     ///< of a pulse; else its end
-        std::uint64_t lost = 0;  ///< edges that the kernel had no room for before this one
+        bool leading = true;     ///< true at the start of a pulse, false at its end
+        std::uint64_t lost = 0;  ///< edges before this one that the kernel's buffer lost
     };
-    /// The next edge; empty when the time is up.
+    /// Waits for the next edge; returns nothing after `timeout`.
     std::optional<Edge> next(std::chrono::nanoseconds timeout);
 
     const GpioLine& line() const { return line_; }

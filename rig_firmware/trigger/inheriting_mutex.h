@@ -6,9 +6,9 @@
 
 namespace vantage {
 
-/// A mutex between a real-time thread and others. Whoever holds it runs at the priority of the
-/// highest who waits for it; with a usual one a holder that a busy computer had put aside would
-/// keep pulses waiting for as long.
+/// Mutex with priority inheritance, for a real-time thread and ordinary ones. The holder runs at
+/// the priority of the highest waiting thread. With an ordinary mutex, a holder that a busy
+/// computer does not schedule would delay pulses.
 class InheritingMutex {
   public:
     InheritingMutex() {
@@ -23,7 +23,7 @@ class InheritingMutex {
     InheritingMutex(const InheritingMutex&) = delete;
     InheritingMutex& operator=(const InheritingMutex&) = delete;
 
-    // As std::lock_guard wants them.
+    // Names that std::lock_guard requires.
     void lock() { ::pthread_mutex_lock(&mutex_); }
     void unlock() { ::pthread_mutex_unlock(&mutex_); }
 

@@ -7,11 +7,11 @@
 
 namespace vantage {
 
-/// Takes the line for this program ("vantage"). Throws Error that says who holds it, or that this
-/// user may not, with the mend.
+/// Requests a line under the name "vantage". Throws Error that names the holder, or the missing
+/// permission with the mend.
 gpiod::line_request request_line(const GpioLine& line, const gpiod::line_settings& settings);
 
-/// The same of several lines of one chip, which can then be set together.
+/// Requests several lines of one chip, which can then be set together. Throws like request_line().
 gpiod::line_request request_lines(const std::vector<GpioLine>& lines,
                                   const gpiod::line_settings& settings);
 

@@ -7,17 +7,17 @@
 
 namespace vantage {
 
-/// Where pulses go: a GPIO line, or nowhere.
+/// Output of trigger pulses: a GPIO line, or none for a dry run.
 class PulseLine {
   public:
     virtual ~PulseLine() = default;
-    /// True: the level of a pulse. Throws Error when the line is gone.
+    /// Sets the level; true is the level of a pulse. Throws Error if the line is gone.
     virtual void set(bool pulse) = 0;
     virtual std::string text() const = 0;
 };
 
-/// The line of [trigger] as an output at rest, or a pretended one. Throws Error that says who holds
-/// it if it is taken.
+/// Opens the line of [trigger] as an idle output, or returns a dry-run output. Throws Error that
+/// names the holder if the line is taken.
 std::unique_ptr<PulseLine> open_pulse_line(const RigConfig::Trigger& trigger);
 
 }  // namespace vantage

@@ -21,7 +21,7 @@ std::uint64_t PulseSchedule::next(TaiTime now, std::uint64_t first) {
     if (due > passed || now - grid_.time_of(due) <= late_limit_) return due;
     const bool newest_can_go = now - grid_.time_of(passed) <= late_limit_;
     const std::uint64_t chosen = newest_can_go ? passed : passed + 1;
-    // A clock that was set forward is a step, not as many late pulses.
+    // Greater lateness means that the clock was set forward; it does not count as late pulses.
     constexpr std::int64_t longest_lateness_s = 10;
     if (now - grid_.time_of(due) > std::chrono::seconds(longest_lateness_s))
         ++clock_steps_;

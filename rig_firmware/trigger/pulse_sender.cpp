@@ -22,7 +22,7 @@
 namespace vantage {
 namespace {
 
-/// Longest single sleep: how fast a stop, or a clock that was set, is noticed.
+/// Longest single sleep. It bounds the delay until a stop or a changed clock is noticed.
 constexpr std::chrono::milliseconds sleep_slice{50};
 
 }  // namespace
@@ -36,7 +36,7 @@ struct PulseSender::Impl {
           on_sent(std::move(tell)),
           schedule(PulseGrid(rate_hz), from_us(trigger.late_limit_us)) {}
 
-    /// False if the sending is to end, or the clock was set back before the deadline.
+    /// Returns false if the thread has to stop or the clock was set back before the deadline.
     bool wait_until(TaiTime deadline) const {
         TaiTime now = TaiClock::now();
         const TaiTime begun = now;
@@ -71,7 +71,7 @@ struct PulseSender::Impl {
         }
     }
 
-    // Between its deadline and its edge a pulse waits for no other thread.
+    // Between its deadline and its edge a pulse takes no lock.
     void send_one(std::uint64_t index) {
         if (!schedule.send(index, TaiClock::now())) {
             const std::lock_guard lock(mutex);
@@ -82,7 +82,7 @@ struct PulseSender::Impl {
         const TaiTime begun = TaiClock::now();
         if (on_sent) on_sent(index);
         const TaiTime end = begun + timing.pulse_width();
-        // A pulse that has begun is ended in time, whatever else is to stop.
+        // A pulse that has begun always ends in time, even during a stop.
         const MonotonicTime monotonic_end = MonotonicClock::now() + timing.pulse_width();
         sleep_until(end - spin);
         while (TaiClock::now() < end && MonotonicClock::now() < monotonic_end) {
@@ -110,13 +110,13 @@ struct PulseSender::Impl {
     std::vector<std::string> realtime_report;
     const std::function<void(std::uint64_t)> on_sent;
 
-    PulseSchedule schedule;  ///< only the thread that sends uses it
+    PulseSchedule schedule;  ///< used by the sending thread only
     std::atomic<std::uint64_t> first = 0;
 
-    mutable InheritingMutex mutex;  ///< of what follows
+    mutable InheritingMutex mutex;  ///< guards the members below
     std::condition_variable_any go;
     bool is_started = false;
-    PulseStatus shown;  ///< without the percentiles
+    PulseStatus shown;  ///< all of the status but the percentiles
     PercentileRecorder lateness_us, width_error_us;
     std::exception_ptr failure;
 
@@ -160,7 +160,7 @@ void PulseSender::stop() {
 }
 
 PulseStatus PulseSender::status() const {
-    // Percentiles are worked out from copies: the sending thread is not to wait for a sorting.
+    // Percentiles are computed from copies, so that the sending thread never waits for a sort.
     const auto [shown, lateness_us, width_error_us] = [&] {
         const std::lock_guard lock(impl_->mutex);
         return std::tuple(impl_->shown, impl_->lateness_us, impl_->width_error_us);

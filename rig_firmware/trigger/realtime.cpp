@@ -23,7 +23,7 @@ std::vector<std::string> become_realtime(int priority, std::string_view what) {
                               "CAP_SYS_NICE or raise the limit rtprio, or they will be late",
                               what, std::strerror(refused)));
     }
-    // On the fault only what is touched is locked: all that is mapped would not fit the limit.
+    // MCL_ONFAULT locks only pages that are used; all mapped memory would exceed the limit.
     const bool is_locked = ::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0;
     report.push_back(is_locked ? std::string("memory is locked")
                                : fmt::format("memory is not locked ({}): raise the limit memlock, "

@@ -21,7 +21,7 @@
 namespace vantage {
 namespace {
 
-/// What both roles share: the pulses that were, and the frames they exposed.
+/// Common part of both roles: the history of pulses and the frames that they exposed.
 class IndexingTrigger : public RigTrigger {
   public:
     explicit IndexingTrigger(const RigConfig& config)
@@ -64,7 +64,8 @@ class IndexingTrigger : public RigTrigger {
 
     const SensorTiming timing_;
     const PulseGrid grid_;
-    mutable InheritingMutex mutex_;  ///< pulses are told to the indexer while they are sent
+    mutable InheritingMutex
+        mutex_;  ///< also used by the sending thread, which passes pulses to the indexer
     FrameIndexer indexer_;
 };
 
@@ -107,7 +108,7 @@ class LeadingTrigger final : public IndexingTrigger {
 
   private:
     std::atomic<std::uint64_t> first_pulse_ = 0;
-    PulseSender sender_;  ///< last: its thread uses what stands above
+    PulseSender sender_;  ///< the last member, since its thread uses the members above
 };
 
 class FollowingTrigger final : public IndexingTrigger {

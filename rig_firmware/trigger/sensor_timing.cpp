@@ -19,10 +19,11 @@ struct Model {
     double exposure_offset_us, readout_us;
 };
 
-/// imx296: exposure of the XTR input is the low width plus 14.26 us; 1118 lines of 14.81 us.
+/// Offset in microseconds and readout in microseconds of each model. The XTR input of an imx296
+/// exposes for the low width plus 14.26 us; 1118 lines of 14.81 us are read out.
 constexpr std::array<Model, 2> models = {{{"other", 0, 0}, {"imx296", 14.26, 16'560}}};
 
-/// The shortest pulse that reaches a sensor through a userspace line.
+/// Shortest pulse that a userspace GPIO line delivers reliably to a sensor.
 constexpr std::chrono::microseconds shortest_pulse{10};
 
 Model find_model(const std::string& name) {

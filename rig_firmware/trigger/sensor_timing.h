@@ -7,9 +7,9 @@
 
 namespace vantage {
 
-/// What a triggered sensor makes of a pulse. It exposes from the pulse's leading edge for the
-/// pulse's width and `exposure_offset` more, then reads out; a pulse during either is lost or
-/// spoils the frame, so that both have to fit into a period.
+/// Timing of a triggered sensor. It exposes from the pulse's leading edge for the pulse's width
+/// plus `exposure_offset`, then reads out. A pulse during either is lost or spoils the frame, so
+/// that both have to fit into one period.
 struct SensorTiming {
     std::chrono::nanoseconds exposure{};
     std::chrono::nanoseconds exposure_offset{};
@@ -20,9 +20,9 @@ struct SensorTiming {
     std::chrono::nanoseconds exposure_centre() const { return exposure / 2; }
 };
 
-/// The timing that the configuration asks for, with the model's own values where it gives none.
-/// Throws Error for a model that is not known, an exposure that the sensor cannot be pulsed for,
-/// and, with the numbers, for exposure and readout that do not fit into a period of `rate_hz`.
+/// Returns the configured timing, with the model's own values where the configuration gives none.
+/// Throws Error for an unknown model, for an exposure that the sensor cannot be pulsed for, and,
+/// with the numbers, for exposure and readout that do not fit into a period of `rate_hz`.
 SensorTiming sensor_timing(const RigConfig::Trigger& trigger, double rate_hz);
 
 }  // namespace vantage

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-/// Two's complement of `bits` bits.
+/// Sign-extends a two's complement number of `bits` bits.
 std::int64_t with_sign(std::uint64_t value, int bits) {
     const std::uint64_t sign = std::uint64_t{1} << (bits - 1);
     return static_cast<std::int64_t>(value ^ sign) - static_cast<std::int64_t>(sign);

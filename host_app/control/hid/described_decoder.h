@@ -10,27 +10,27 @@
 
 namespace vantage {
 
-/// Where one control stands in a wheel's reports.
+/// Position and type of one control in a jog wheel's reports.
 struct ReportField {
     enum class Kind {
-        delta,    ///< steps since the report before
-        counter,  ///< counts steps and wraps; the first report is only where it starts
+        delta,    ///< steps since the previous report
+        counter,  ///< counts steps and wraps; the first report only sets the start
         axis,     ///< position of a spring-centred control, `full_scale` at its end
-        buttons,  ///< a mask; bit n is the button NAME with n + 1 behind it
+        buttons,  ///< a bit mask; bit n is the button NAME with the number n + 1
     };
     Kind kind = Kind::delta;
     std::string name;
-    std::optional<std::uint8_t> report_id;  ///< without one the device's reports have none
-    int byte = 0;                           ///< the id's own byte counts, as byte 0
+    std::optional<std::uint8_t> report_id;  ///< empty if the device's reports have no id
+    int byte = 0;                           ///< counted with the id, which is byte 0
     int bit = 0;                            ///< lowest bit within that byte, 0..7
     int bits = 8;                           ///< little-endian; 1..32
-    bool is_signed = true;                  ///< of delta and axis
-    double centre = 0;                      ///< of an axis: its value at rest
-    double full_scale = 127;                ///< of an axis: how far from there its end is
+    bool is_signed = true;                  ///< for delta and axis
+    double centre = 0;                      ///< for an axis: its value at rest
+    double full_scale = 127;                ///< for an axis: distance from there to its end
 };
 
-/// A decoder for a wheel that is described and not known: a report of another id or one that is too
-/// short for its fields is refused.
+/// Creates a decoder from the report description of a wheel's profile. It refuses reports with
+/// another id, or too short for their fields.
 std::unique_ptr<JogDecoder> make_described_decoder(std::vector<ReportField> fields);
 
 }  // namespace vantage

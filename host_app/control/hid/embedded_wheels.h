@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// The files of hw_config/jog as they were built in.
+/// Built-in copies of the files in hw_config/jog.
 std::span<const EmbeddedText> embedded_wheels();
 
 }  // namespace vantage

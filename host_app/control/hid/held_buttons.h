@@ -10,10 +10,10 @@
 
 namespace vantage {
 
-/// Turns masks of held buttons into events for those that changed.
+/// Converts masks of held buttons into events for the buttons that changed.
 class HeldButtons {
   public:
-    /// `name_of` gives a bit's button; an empty name is no button.
+    /// `name_of` returns the name of a bit's button; an empty name means no button.
     void update(std::uint64_t mask, const std::function<std::string(int bit)>& name_of,
                 std::vector<JogEvent>& events) {
         for (std::uint64_t changed = mask ^ held_; changed != 0; changed &= changed - 1) {
@@ -29,7 +29,8 @@ class HeldButtons {
     std::uint64_t held_ = 0;
 };
 
-/// Events only for axes that moved, so that a device that repeats itself is not heard twice.
+/// Remembers axis positions and creates events only for axes that moved, since some devices repeat
+/// themselves.
 class AxisPosition {
   public:
     void update(double value, const std::string& name, std::vector<JogEvent>& events) {

@@ -7,20 +7,21 @@
 
 namespace vantage {
 
-/// Where controllers are plugged in.
+/// Interface of the system's bus on which controllers are plugged in.
 class JogBus {
   public:
     virtual ~JogBus() = default;
 
-    /// All nodes that are there now, of whatever device. A node with several collections comes once
-    /// for each.
+    /// Lists all nodes that exist now, of any device. A node with several collections is listed
+    /// once for each.
     virtual std::vector<JogPlace> list() = 0;
-    /// Throws Error; where this user may not, with the udev rule that lets him.
+    /// Opens a node. Throws Error; if this user may not open it, the message names the udev rule
+    /// that permits it.
     virtual std::unique_ptr<JogPort> open(const JogPlace& place) = 0;
 };
 
-/// This computer's: hidraw through hidapi, and evdev. To be used from one thread; the ports it
-/// opens may each be used from another.
+/// Creates the bus of this computer: hidraw through hidapi, and evdev. Use it from one thread; each
+/// port that it opens may be used on another.
 std::unique_ptr<JogBus> make_system_jog_bus();
 
 }  // namespace vantage

@@ -10,8 +10,9 @@
 
 namespace vantage {
 
-/// From one device's reports to events. Keeps what it needs of the reports before (counters that
-/// wrap, buttons held), so there is one for every device that is plugged in.
+/// Interface that decodes one device's reports into events. It keeps state between reports
+/// (counters that wrap, held buttons), so that each device has a decoder of its own. Not
+/// thread-safe.
 class JogDecoder {
   public:
     virtual ~JogDecoder() = default;
@@ -19,14 +20,14 @@ class JogDecoder {
     /// All controls that events may name.
     virtual std::vector<JogControl> controls() const = 0;
 
-    /// Makes a device talk that was just opened. Throws Error if it refuses.
+    /// Initialises a device that was just opened. Throws Error if it refuses.
     virtual void start(JogPort&, MonotonicTime) {}
-    /// Does what the device wants done again and again, or what its last report asks for; to be
-    /// called after every report and ten times a second.
+    /// Sends what the device expects periodically or after its last report. Call it after every
+    /// report and ten times per second.
     virtual void keep_alive(JogPort&, MonotonicTime) {}
 
-    /// Appends what a report says. Any bytes may come; false if they are no report of this device,
-    /// and then nothing is appended.
+    /// Appends the events of a report. Returns false, and appends nothing, if the bytes are not a
+    /// report of this device. Accepts any bytes.
     virtual bool decode(std::span<const std::uint8_t> report, std::vector<JogEvent>& events) = 0;
 };
 

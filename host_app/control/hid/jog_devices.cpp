@@ -12,10 +12,10 @@
 namespace vantage {
 namespace {
 
-/// How long a reader may take to notice that it should end; also how often a decoder keeps its
-/// device alive.
+/// Longest wait of a reader: how fast it notices a stop, and how often a decoder keeps its device
+/// alive.
 constexpr std::chrono::milliseconds patience{100};
-/// A device that refuses is not asked more often than this.
+/// Longest interval between two attempts to open a device that refuses.
 constexpr std::chrono::seconds slowest_retry{5};
 
 }  // namespace
@@ -52,7 +52,7 @@ std::unique_ptr<JogDecoder> make_decoder(const WheelProfile& profile, JogId id) 
          to_text(id));
 }
 
-/// One open device and its thread.
+/// One open device and the thread that reads it.
 class JogDevices::Reader {
   public:
     Reader(JogDevices& deck, const Seen& seen, std::unique_ptr<JogPort> port)
@@ -74,7 +74,7 @@ class JogDevices::Reader {
     bool gone() const { return gone_; }
     /// Precondition: gone().
     const std::string& fault() const { return fault_; }
-    /// Whether it ever worked.
+    /// True if the device ever worked.
     bool was_usable() const { return usable_; }
     std::uint64_t reports() const { return reports_; }
     std::uint64_t unread() const { return unread_; }
@@ -151,7 +151,7 @@ std::vector<DeckDevice> JogDevices::devices() const {
 
 void JogDevices::run() {
     name_this_thread("jog");
-    // Its readers push to this deck, so they end before it does.
+    // The readers push to this object, so that they end before it does.
     std::map<std::string, Seen> seen;
     bool is_told = false;
     while (!end_.closed()) {
@@ -159,7 +159,7 @@ void JogDevices::run() {
             look(seen);
             is_told = false;
         } catch (const std::exception& error) {
-            // What is open is read on, and a wheel that went or came meanwhile is seen later.
+            // Open devices are still read; plugging and unplugging is noticed later.
             if (!std::exchange(is_told, true))
                 log_warning("jog wheels are looked for again and again: {}", error.what());
         }
@@ -220,7 +220,7 @@ void JogDevices::care_for(Seen& seen) {
 void JogDevices::note_failure(Seen& seen, const std::string& fault) {
     seen.device.fault = fault;
     ++seen.failures;
-    // The first time may be the moment before udev has set the node's permissions.
+    // At the first failure udev may not have set the node's permissions yet.
     if (seen.failures == 2) log_warning("{}", fault);
     seen.next_try = MonotonicClock::now() + std::min<std::chrono::nanoseconds>(
                                                 seen.failures * options_.look_every, slowest_retry);

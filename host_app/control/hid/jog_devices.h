@@ -15,35 +15,35 @@
 
 namespace vantage {
 
-/// What happened at the desk.
+/// Event of a controller: plugged in, lost, or operated.
 struct DeckEvent {
     enum class Kind {
-        plugged,  ///< the device can be used from now on
-        lost,     ///< it is gone; nothing of it is held any more
+        plugged,  ///< the device is ready
+        lost,     ///< it is gone, and all its controls count as released
         control,  ///< `event`
-        unread,   ///< a report that its decoder does not know
-        report,   ///< any report, where raw reports were asked for
+        unread,   ///< a report that its decoder does not understand
+        report,   ///< any report, if raw reports are enabled
     };
     Kind kind = Kind::control;
     std::string path;  ///< of the device's node
     std::shared_ptr<const WheelProfile> profile;
     JogEvent event;
     std::vector<std::uint8_t> report;
-    MonotonicTime time{};  ///< when the report was read
+    MonotonicTime time{};  ///< time at which the report was read
 };
 
 struct DeckDevice {
     JogPlace place;
     std::string model;
     bool usable = false;
-    std::string fault;  ///< why it is not
+    std::string fault;  ///< reason why the device is not usable
     std::uint64_t reports = 0, unread = 0;
 };
 
-/// The jog controllers of this computer: finds them as they are plugged in, reads each on a thread
-/// of its own, and notices when one goes. A device that may not be opened, or that does not start,
-/// is tried again and again, since its permissions may come a moment after its node; so is a bus
-/// that cannot be listed.
+/// All jog controllers of this computer. It finds them as they are plugged in, reads each on a
+/// thread of its own, and notices when one is unplugged. A device that cannot be opened or does not
+/// start is tried again, since its permissions may arrive shortly after its node; a bus that cannot
+/// be listed is tried again too. Thread-safe.
 class JogDevices {
   public:
     struct Options {
@@ -57,17 +57,17 @@ class JogDevices {
     JogDevices(const JogDevices&) = delete;
     JogDevices& operator=(const JogDevices&) = delete;
 
-    /// The oldest event that was not taken; waits for one until the time is up.
+    /// Removes and returns the oldest event; waits for one up to `timeout`.
     std::optional<DeckEvent> next(std::chrono::nanoseconds timeout = std::chrono::nanoseconds(0));
-    /// Events that had to make room because nobody took them.
+    /// Number of events that were dropped because the queue was full.
     std::uint64_t dropped() const { return events_.dropped_count(); }
 
-    /// What is plugged in and could be used, as of the last look.
+    /// Devices that were plugged in and usable at the last scan.
     std::vector<DeckDevice> devices() const;
 
   private:
     class Reader;
-    /// A node that could be used, as the looking thread knows it.
+    /// State of a node that may be usable, owned by the scanning thread.
     struct Seen {
         DeckDevice device;
         std::shared_ptr<const WheelProfile> profile;
@@ -86,14 +86,15 @@ class JogDevices {
     std::vector<WheelProfile> profiles_;
     Options options_;
     BoundedQueue<DeckEvent> events_{4096};
-    BoundedQueue<int> end_{1};  ///< closed: the looking thread ends
-    mutable std::mutex mutex_;  ///< of devices_
+    BoundedQueue<int> end_{1};  ///< closed to end the scanning thread
+    mutable std::mutex mutex_;  ///< guards devices_
     std::vector<DeckDevice> devices_;
     std::thread thread_;
 };
 
-/// The node, the family and the profile of every device that can be read; without a profile there
-/// is nothing that it would do. Of a node with several collections only the one that speaks.
+/// Device that can be read: its node, its family and its profile. A device without a profile would
+/// do nothing and is left out. Of a node with several collections only the one that sends events is
+/// listed.
 struct ReadableJog {
     JogPlace place;
     std::string model;
@@ -101,7 +102,7 @@ struct ReadableJog {
 };
 std::vector<ReadableJog> readable_jogs(const std::vector<JogPlace>& places,
                                        const std::vector<WheelProfile>& profiles);
-/// A decoder for such a device.
+/// Creates a decoder for a device of this profile.
 std::unique_ptr<JogDecoder> make_decoder(const WheelProfile& profile, JogId id);
 
 }  // namespace vantage

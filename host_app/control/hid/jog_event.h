@@ -5,12 +5,12 @@
 namespace vantage {
 
 enum class JogKind {
-    step,    ///< turned by so many detents since the event before; positive is clockwise
-    axis,    ///< where a spring-centred control stands, -1..1, 0 at rest
-    button,  ///< 1 pressed, 0 let go
+    step,    ///< detents since the previous event; positive is clockwise
+    axis,    ///< position of a spring-centred control, -1..1, 0 at rest
+    button,  ///< 1 pressed, 0 released
 };
 
-/// What a hand did, whatever the device: the control by the name its decoder gives it.
+/// Operator input on a device: the control, by the name its decoder gives it, and its value.
 struct JogEvent {
     JogKind kind = JogKind::step;
     std::string control;
@@ -19,7 +19,7 @@ struct JogEvent {
     bool operator==(const JogEvent&) const = default;
 };
 
-/// A control that a device has.
+/// One control of a device.
 struct JogControl {
     JogKind kind = JogKind::step;
     std::string name;

@@ -22,7 +22,7 @@ void JogMapper::let_go() {
 void JogMapper::take(const DeckEvent& event) {
     switch (event.kind) {
         case DeckEvent::Kind::lost:
-            // Its springs cannot centre it any more.
+            // The springs of a lost device cannot centre its axes any more.
             std::erase_if(held_, [&](const auto& held) { return held.first.first == event.path; });
             storing_ = false;
             break;

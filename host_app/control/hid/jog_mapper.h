@@ -8,22 +8,23 @@
 
 namespace vantage {
 
-/// Speed that a shuttle ring stands for, as operators know it: 0, 0.1, 0.25, 0.33, 0.5, 0.75, 1, 2
-/// over its way of 0 to 1, straight in between; negative backwards.
+/// Playback speed for a position 0..1 of a shuttle ring, with the steps that operators know: 0,
+/// 0.1, 0.25, 0.33, 0.5, 0.75, 1, 2, linear in between; negative backwards.
 double shuttle_speed(double position);
 
-/// From what happens at the desk to what the flight is asked to do, by the profiles of the wheels.
+/// Converts the events of jog devices to flight input, by the profiles of the wheels. Not
+/// thread-safe.
 class JogMapper {
   public:
     void take(const DeckEvent& event);
 
-    /// All that was asked for since the last call, and what held axes ask for in dt_s seconds.
+    /// Input since the last call, including dt_s seconds of the axes that are held.
     FlightInput input(double dt_s);
 
-    /// Nothing is held any more, be it held or not: what is moved next counts.
+    /// Treats all controls as released; later movements count again.
     void let_go();
 
-    /// Whether the next shot button stores.
+    /// True while the next shot button stores a shot.
     bool is_storing() const { return storing_; }
 
   private:
@@ -34,7 +35,7 @@ class JogMapper {
     void take_axis(const DeckEvent& event);
     void take_button(const DeckEvent& event);
 
-    /// By node and control, of every axis that is off its rest.
+    /// Axes off their rest position, by node and control.
     std::map<std::pair<std::string, std::string>, Held> held_;
     FlightInput input_;
     bool storing_ = false;

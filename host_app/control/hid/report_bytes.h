@@ -6,7 +6,7 @@
 
 namespace vantage {
 
-/// Little-endian numbers of a report. Precondition of all: the report is long enough.
+/// Readers of little-endian numbers in a report. Precondition of all: the report is long enough.
 inline std::int8_t int8_at(std::span<const std::uint8_t> report, std::size_t at) {
     assert(at < report.size());
     return static_cast<std::int8_t>(report[at]);
@@ -18,7 +18,7 @@ inline std::uint16_t uint16_at(std::span<const std::uint8_t> report, std::size_t
 inline std::int16_t int16_at(std::span<const std::uint8_t> report, std::size_t at) {
     return static_cast<std::int16_t>(uint16_at(report, at));
 }
-/// Of `bytes` bytes, at most eight.
+/// Reads `bytes` bytes, at most eight.
 inline std::uint64_t uint_at(std::span<const std::uint8_t> report, std::size_t at,
                              std::size_t bytes) {
     assert(bytes <= 8 && at + bytes <= report.size());

@@ -26,7 +26,7 @@ void send(JogPort& port, Step step, std::uint64_t number) {
     port.send_feature(report);
 }
 
-/// The number that a report of this step carries.
+/// Receives the number of one step of the handshake.
 std::uint64_t receive(JogPort& port, Step step) {
     const std::vector<std::uint8_t> report = port.get_feature(handshake_report, report_bytes);
     if (report.size() < report_bytes || report[0] != handshake_report || report[1] != step)
@@ -57,7 +57,7 @@ std::uint64_t speed_editor_response(std::uint64_t challenge_number) {
 std::chrono::seconds open_speed_editor(JogPort& port) {
     send(port, challenge, 0);
     const std::uint64_t number = receive(port, challenge);
-    // The device would prove itself too; whom it belongs to is none of our concern.
+    // The protocol lets the device prove its identity too, which the host does not need.
     send(port, own_challenge, 0);
     receive(port, answer);
     send(port, response, speed_editor_response(number));

@@ -7,12 +7,12 @@
 
 namespace vantage {
 
-/// What a DaVinci Resolve Speed Editor expects in answer to its challenge. The procedure and its
-/// constants are those that S. Munaut found and published (blackmagic-misc, bmd.py, 2021).
+/// Response that a DaVinci Resolve Speed Editor expects to its challenge. S. Munaut found and
+/// published the procedure and its constants (blackmagic-misc, bmd.py, 2021).
 std::uint64_t speed_editor_response(std::uint64_t challenge);
 
-/// Makes a Speed Editor talk, over feature report 6: it is silent until it has been answered.
-/// Returns how long it will talk. Throws Error if it does not follow the procedure.
+/// Unlocks a Speed Editor over feature report 6; the device sends nothing before. Returns how long
+/// it stays unlocked. Throws Error if the device does not follow the procedure.
 std::chrono::seconds open_speed_editor(JogPort& port);
 
 }  // namespace vantage

@@ -19,7 +19,7 @@
 namespace vantage {
 namespace {
 
-/// Device names are Latin letters; whatever is not becomes '?'.
+/// Converts a device name to ASCII; other characters become '?'.
 std::string narrow(const wchar_t* wide) {
     std::string text;
     for (; wide && *wide; ++wide)
@@ -44,7 +44,7 @@ std::string described(const JogPlace& place) {
 class HidPort final : public JogPort {
   public:
     explicit HidPort(const JogPlace& place) : what_(described(place)) {
-        // hidapi keeps the reason to itself, so the node is asked first.
+        // hidapi does not report the reason, so the node is checked first.
         if (access(place.path.c_str(), R_OK | W_OK) != 0) fail_to_open(place, errno);
         device_.reset(hid_open_path(place.path.c_str()));
         if (!device_) fail("{} cannot be opened: {}", what_, narrow(hid_error(nullptr)));
@@ -139,7 +139,7 @@ class SystemJogBus final : public JogBus {
         std::vector<JogPlace> places;
         hid_device_info* const first = hid_enumerate(0, 0);
         for (const hid_device_info* info = first; info; info = info->next) {
-            // Of one that is being pulled out hidapi may have no node any more.
+            // hidapi may have no node for a device that is being unplugged.
             if (!info->path) continue;
             places.push_back({JogTransport::hidraw,
                               info->path,
@@ -161,7 +161,7 @@ class SystemJogBus final : public JogBus {
     }
 
   private:
-    /// From sysfs, which everybody may read.
+    /// Lists evdev nodes from sysfs, which every user may read.
     static void list_evdev(std::vector<JogPlace>& places) {
         std::error_code none;
         for (const auto& entry : std::filesystem::directory_iterator("/sys/class/input", none)) {

@@ -4,13 +4,13 @@
 
 namespace vantage {
 
-/// What hands ask of the map of a wheel while it is open on the desk.
+/// Operator's request to the editor of a wheel's map.
 struct WheelCall {
     enum class What {
-        select_by,  ///< `amount` controls on, or back
-        select,     ///< the control called `words`
-        assign,     ///< `words`, a command or "nothing", to the control in hand
-        // How the control in hand feels, by `amount` little steps.
+        select_by,  ///< moves the selection by `amount` controls
+        select,     ///< selects the control called `words`
+        assign,     ///< assigns `words`, a command or "nothing", to the selected control
+        // change the response of the selected control by `amount` small steps
         steps,
         dead_zone,
         curve,

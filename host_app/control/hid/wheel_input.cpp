@@ -14,10 +14,10 @@
 namespace vantage {
 namespace {
 
-/// How long a turn is shown.
+/// Time that the desk shows a turn of a control.
 constexpr std::chrono::milliseconds turn_shown{600};
 
-/// Files that a package brings belong to it.
+/// True for files that belong to an installed package.
 bool is_packaged(const WheelProfile& profile) {
     return profile.is_built_in || profile.file.string().starts_with("/usr/");
 }
@@ -78,7 +78,7 @@ void WheelInput::note_control(Wheel& wheel, const JogEvent& event, MonotonicTime
     } else {
         wheel.at[event.control] = event.value;
     }
-    // A ring that comes to rest, or a button that is let go, takes nothing from another's hand.
+    // A ring that returns to rest or a released button does not change the selection.
     if (event.value != 0) wheel.selected = static_cast<std::size_t>(found - wheel.controls.begin());
 }
 
@@ -110,7 +110,7 @@ void WheelInput::obey(const WheelCall& call) {
         devices = in_hand_;
         wheel = found->second;
     }
-    // The programme's thread asks for the maps at every tick: it waits for no file.
+    // The programme's thread reads the maps at every tick and must not wait for a file.
     const std::size_t selected = wheel.selected;
     std::string remark;
     try {
@@ -173,7 +173,7 @@ void WheelInput::assign(Wheel& wheel, const std::string& action) {
 }
 
 void WheelInput::feel(Wheel& wheel, const WheelCall& call) {
-    // The least that a hand notices, and what a map may have (see WheelProfile).
+    // Smallest changes that an operator notices, within the limits of WheelProfile.
     constexpr double steps_factor = 1.1, dead_zone_step = 0.02, curve_step = 0.1;
     constexpr double most_dead_zone = 0.9, least_curve = 0.2, most_curve = 5;
     constexpr double least_steps = 0.001, most_steps_factor = 1000;

@@ -12,58 +12,58 @@
 
 namespace vantage {
 
-/// The map of a wheel as it is changed, for whoever draws it.
+/// State of the wheel map editor, for the desk to draw.
 struct WheelMapView {
     struct Control {
         JogControl control;
-        std::string does;      ///< as its file has it: "shot 1", "wheel", "nothing"
-        bool is_held = false;  ///< a button that is down, an axis off its rest
-        double at = 0;         ///< of an axis -1..1; of what turns all detents so far
+        std::string does;      ///< as in its file: "shot 1", "wheel", "nothing"
+        bool is_held = false;  ///< a pressed button, or an axis off its rest position
+        double at = 0;         ///< position -1..1 of an axis; sum of all detents for other controls
     };
-    std::string name;  ///< of the wheel; empty: none has been plugged in
-    std::string file;  ///< that it is saved in
+    std::string name;  ///< name of the wheel; empty if none has been plugged in
+    std::string file;  ///< file that the map is saved in
     std::vector<Control> controls;
     std::size_t selected = 0;
-    AxisMap feel;             ///< of the control in hand, unless that is a button
-    double turned = 0;        ///< detents that it was turned by a moment ago
-    bool is_changed = false;  ///< and not saved
-    std::string remark;       ///< what the last call came to; empty: nothing to say
+    AxisMap feel;             ///< response of the selected control, unless it is a button
+    double turned = 0;        ///< detents that it was just turned by
+    bool is_changed = false;  ///< changed and not saved
+    std::string remark;       ///< result of the last request; empty if there is nothing to report
 };
 
-/// The maps of all wheels as hands change them while they fly: a change is one of the map's text,
-/// which is read again as if it came from a file, so that what cannot be is refused in the same
-/// words, and comments stay. While the map is open wheels are shown and move nothing. Any thread;
-/// no lock is held over a file.
+/// Editor of the maps of all wheels during a show. Each change edits the map's text, which is then
+/// parsed like a file: invalid values are refused with the same messages, and comments stay. While
+/// the editor is open, wheels are shown and move nothing. Thread-safe; no lock is held while a file
+/// is written.
 class WheelInput {
   public:
-    /// Takes note of what happens at a wheel, and gives the event the map that is in force.
+    /// Records an event of a wheel and attaches the current map to it.
     void note(DeckEvent& event);
 
-    /// There is a desk that shows the map: without one it never opens, and wheels move what they
-    /// move.
+    /// Declares that a desk shows the editor. Without a desk it never opens, and wheels keep their
+    /// effect.
     void serve_desk();
     void toggle();
     bool is_open() const;
-    /// By one thread.
+    /// Executes a request. Call it from one thread.
     void obey(const WheelCall& call);
 
-    /// Nothing: it is closed.
+    /// Returns nothing while the editor is closed.
     std::optional<WheelMapView> view(MonotonicTime now) const;
-    /// Names of wheels whose maps are changed and not saved.
+    /// Names of wheels whose maps have unsaved changes.
     std::vector<std::string> unsaved() const;
 
   private:
     struct Wheel {
         std::shared_ptr<const WheelProfile> profile;
         std::vector<JogControl> controls;
-        std::string saved_text;  ///< of its file, as it was read or written last
+        std::string saved_text;  ///< content of its file, as last read or written
         std::size_t selected = 0;
         std::map<std::string, double> at;
         double turned = 0;
         MonotonicTime turned_at{};
     };
     void note_control(Wheel& wheel, const JogEvent& event, MonotonicTime time);
-    /// Returns what is to be said of it.
+    /// Executes a request on one wheel. Returns the message to show.
     static std::string obey(Wheel& wheel, const WheelCall& call);
     static void set(Wheel& wheel, const std::string& table, const std::string& key,
                     const std::string& value);
@@ -73,13 +73,13 @@ class WheelInput {
 
     mutable std::mutex mutex_;
     bool has_desk_ = false, is_open_ = false;
-    /// By the devices that a map is for.
+    /// Wheels by the devices that their maps are for.
     std::map<std::vector<JogId>, Wheel> wheels_;
-    std::vector<JogId> in_hand_;  ///< of the wheel that was moved last; empty: none yet
+    std::vector<JogId> in_hand_;  ///< ids of the wheel that was moved last; empty: none yet
     std::string remark_;
 };
 
-/// What this control does, as its file has it.
+/// Action of this control, as in its file.
 std::string action_of(const WheelProfile& profile, const JogControl& control);
 
 }  // namespace vantage

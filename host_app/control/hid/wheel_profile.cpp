@@ -18,7 +18,7 @@ namespace vantage {
 namespace {
 
 constexpr int wheel_file_version = 1;
-/// Reports are at most so long on USB.
+/// Longest report on USB.
 constexpr int max_report_byte = 63;
 
 template <class Action>
@@ -58,7 +58,7 @@ Action read_named(TomlTable& table, std::string_view key, const Named<Action> (&
     return found ? *found : Action{};
 }
 
-/// An axis is turned by every command with steps, or is a shuttle.
+/// An axis controls a command with steps, or a shuttle.
 void read_axis_action(TomlTable& table, AxisMap& map) {
     constexpr std::string_view key = "action";
     std::string name;
@@ -103,7 +103,8 @@ ReportField read_field(TomlTable& table) {
     return field;
 }
 
-/// The controls of every device of a profile. Throws Error if nothing reads one of them.
+/// Controls of every device of a profile. Throws Error if no family or description can read one of
+/// them.
 std::vector<std::vector<JogControl>> controls_of(const WheelProfile& profile,
                                                  const TomlTable& top) {
     if (!profile.report.empty()) return {make_described_decoder(profile.report)->controls()};
@@ -128,7 +129,7 @@ bool has_control(const std::vector<std::vector<JogControl>>& devices, const std:
     return false;
 }
 
-/// Refuses a name that none of the devices has, in the way it is used.
+/// Throws Error if none of the devices has a control of this name and type.
 void check_control(const TomlTable& table, std::string_view key, const std::string& name,
                    bool as_button, const std::vector<std::vector<JogControl>>& devices) {
     std::vector<std::string> known;
@@ -185,7 +186,7 @@ WheelProfile read_members(TomlTable& top) {
     return profile;
 }
 
-/// Of a folder or a file; an empty path has none.
+/// Adds the profiles of a folder or a file; an empty path adds none.
 void add_profiles_of(const std::filesystem::path& own, std::vector<WheelProfile>& profiles) {
     if (own.empty()) return;
     std::vector<std::filesystem::path> files{own};
@@ -251,7 +252,7 @@ std::filesystem::path user_wheel_folder() { return user_folder() / "jog"; }
 
 std::vector<WheelProfile> load_all_wheel_profiles(const std::filesystem::path& own) {
     std::vector<WheelProfile> profiles = load_wheel_profiles();
-    // The desk may have saved nothing yet.
+    // The folder exists only once the desk has saved a profile.
     if (std::error_code none; !std::filesystem::is_empty(user_wheel_folder(), none) && !none)
         add_profiles_of(user_wheel_folder(), profiles);
     add_profiles_of(own, profiles);

@@ -15,22 +15,23 @@ namespace vantage {
 class TomlTable;
 
 inline constexpr std::size_t max_wheel_file_bytes = 1 << 20;
-/// What a control is called that does nothing.
+/// Action of a control without a function.
 inline constexpr const char* does_nothing = "nothing";
 
-/// What a turned or pushed control moves.
+/// Target of a control that is turned or pushed.
 enum class AxisAction {
     nothing,
-    shuttle,  ///< speed of what the wheel drives, spring-centred
-    command,  ///< one of those with steps
+    shuttle,  ///< speed of the wheel's target, spring-centred
+    command,  ///< a command with steps
 };
 
 struct AxisMap {
     AxisAction action = AxisAction::nothing;
-    const ControlCommand* command = nullptr;  ///< of AxisAction::command
-    double dead_zone = 0;    ///< of an axis: nearer to its rest than this it is at rest; 0..0.9
+    const ControlCommand* command = nullptr;  ///< for AxisAction::command
+    double dead_zone = 0;    ///< for an axis: it counts as at rest within this distance; 0..0.9
     double sensitivity = 1;  ///< factor
-    /// Of an axis: the power of its way beyond the dead zone; above 1 finer near its rest. 0.2..5
+    /// For an axis: exponent of its response beyond the dead zone; above 1 it is finer near the
+    /// rest position. 0.2..5
     double curve = 1;
     bool inverted = false;
 };
@@ -43,49 +44,50 @@ enum class ButtonAction {
 
 struct ButtonMap {
     ButtonAction action = ButtonAction::nothing;
-    CommandCall call = {};  ///< of ButtonAction::command; a shot stores after `store_next`
+    CommandCall call = {};  ///< for ButtonAction::command; a shot stores after `store_next`
 };
 
-/// The action of an axis with all that shapes it, out of its table. Throws Error as the table does.
+/// Reads the action and response of an axis from its table. Throws Error like the table.
 AxisMap read_axis_map(TomlTable& table);
-/// What a button does, by the words of its key `control`. Throws Error for what is no command.
+/// Parses the action of a button from the key `control`. Throws Error if it is not a command.
 ButtonMap read_button_map(const TomlTable& table, const std::string& control,
                           const std::string& action);
 
-/// What a wheel's controls do, and for a wheel that no family knows how its reports are read. A
-/// file each (hw_config/jog/ documents every key).
+/// Profile of a wheel: the action of each control and, for a wheel without a family, the layout of
+/// its reports. Each profile is one file (hw_config/jog/ documents every key).
 struct WheelProfile {
     std::string name;
     std::vector<JogId> devices;
     std::map<std::string, AxisMap> axes;
     std::map<std::string, ButtonMap> buttons;
-    std::vector<ReportField> report;  ///< empty: a family reads the device
-    std::filesystem::path file;       ///< that it was read from, or the built-in one's name
+    std::vector<ReportField> report;  ///< empty: a family decodes the device
+    std::filesystem::path file;       ///< file it was read from, or the name of the built-in one
     bool is_built_in = false;
-    std::string text;  ///< of the file
+    std::string text;  ///< content of the file
 };
 
-/// Throws Error with file and line for whatever does not fit: a control that the device does not
-/// have, an action that does not exist, a device that no family reads and that has no [[report]].
+/// Parses a profile. Throws Error with file and line for a control that the device does not have,
+/// an unknown action, or a device without a family and without [[report]].
 WheelProfile read_wheel_profile(std::string_view text, const std::filesystem::path& name);
 
-/// The profiles that come with Vantage, and those of the folder or the one file `own` on top: of
-/// two for one device the last one counts. An empty path: none. Throws Error.
+/// Loads the profiles that come with Vantage, then those of the folder or file `own`; the last
+/// profile for a device counts. An empty path adds none. Throws Error.
 std::vector<WheelProfile> load_wheel_profiles(const std::filesystem::path& own = {});
 
-/// Likewise, with those of this user's own folder, where the desk saves them, in between.
+/// Loads the same, and in between the profiles of this user's own folder, where the desk saves
+/// them.
 std::vector<WheelProfile> load_all_wheel_profiles(const std::filesystem::path& own);
-/// That folder, be it there or not.
+/// Path of that folder, which need not exist.
 std::filesystem::path user_wheel_folder();
 
-/// All controls of a wheel's devices, each once. Precondition: it was read.
+/// All controls of a wheel's devices, each once. Precondition: the profile was read from a file.
 std::vector<JogControl> controls_of(const WheelProfile& profile);
 
-/// The position outside the dead zone, stretched so that it starts at 0 and ends at 1.
+/// Scales a position so that it is 0 at the edge of the dead zone and 1 at the end.
 double without_dead_zone(double position, double dead_zone);
 
-/// What an axis asks for at a position of -1..1, before its factor: nothing in its dead zone, and
-/// from there along its curve to its end.
+/// Response of an axis to a position of -1..1, before its factor: 0 in its dead zone, then along
+/// its curve.
 double response_of(const AxisMap& map, double position);
 
 /// The last profile for a device; null if there is none.

@@ -6,12 +6,13 @@
 
 namespace vantage {
 
-/// From a port to the programme's next ticks, no more than hands could press.
+/// Passes commands from a port to the programme's next ticks, and limits their rate. Use it from
+/// one thread.
 class CommandIntake {
   public:
     explicit CommandIntake(OperatorInputBox& operator_input) : operator_input_(operator_input) {}
 
-    /// False: it was one too many.
+    /// Returns false if the command exceeds the limit and is dropped.
     bool take(const CommandCall& call, MonotonicTime now) {
         FlightInput input;
         apply(call, input);
@@ -20,7 +21,8 @@ class CommandIntake {
     }
 
   private:
-    /// A hand's commands a second, many times over.
+    /// Limit of commands per second, and of commands at once after a rest. It is many times what an
+    /// operator can press.
     static constexpr double commands_a_second = 200, commands_at_once = 100;
 
     OperatorInputBox& operator_input_;

@@ -11,7 +11,7 @@
 
 namespace vantage {
 
-/// What the session shows, from its thread to those of the ports.
+/// Lamps of the session, shared by its thread with those of the ports. Thread-safe.
 class LampBoard {
   public:
     void show(ShowLamps lamps) {
@@ -28,7 +28,7 @@ class LampBoard {
     ShowLamps shown_;
 };
 
-/// What the vision mixer says of this camera.
+/// Tally of this camera, as the vision mixer sends it. Thread-safe.
 class Tally {
   public:
     struct State {
@@ -49,7 +49,7 @@ class Tally {
     State state_;
 };
 
-/// What a port may act on and tell of. All of it takes calls from any thread and outlives the
+/// Parts of the session that a port acts on or reports. All of them are thread-safe and outlive the
 /// ports.
 struct ControlBench {
     OperatorInputBox& operator_input;

@@ -14,27 +14,28 @@
 
 namespace vantage {
 
-/// Every message that came is in one of these.
+/// Counters of a port. Every received message is counted in one of them.
 struct PortStats {
     std::uint64_t obeyed = 0;
-    std::uint64_t unknown = 0;    ///< well formed, and there is no such command
-    std::uint64_t malformed = 0;  ///< not what the protocol says, or an argument that does not fit
-    std::uint64_t dropped = 0;    ///< more than may come
-    std::string last_refusal;     ///< the latest that was unknown or malformed, for people
-    std::string told;             ///< what came last, for people, where that is not a command
+    std::uint64_t unknown = 0;    ///< well formed, but not a known command
+    std::uint64_t malformed = 0;  ///< violates the protocol, or has an invalid argument
+    std::uint64_t dropped = 0;    ///< exceeds the rate limit
+    std::string last_refusal;     ///< the latest unknown or malformed message, for operators
+    std::string told;             ///< the latest message that is not a command, for operators
 };
 
-/// Something that listens for others who steer, or tell of what is steered. Made, served and
-/// destroyed on one thread each.
+/// Network or device port for remote control: it receives commands, camera data or tally, and
+/// reports the state. Create, serve and destroy it on one thread.
 class ControlPort {
   public:
     virtual ~ControlPort() = default;
-    /// Takes what has come, waiting for so long at the most. Throws Error if it cannot go on.
+    /// Handles what has arrived, and waits for at most this time. Throws Error if the port has
+    /// failed.
     virtual void serve(std::chrono::milliseconds most) = 0;
     const PortStats& stats() const { return stats_; }
 
   protected:
-    /// Told back to people: what a stranger wrote, without what a terminal obeys.
+    /// Replaces control characters in received text, so that a terminal can show it.
     static std::string printable(std::string text) {
         for (char& c : text)
             if (c < ' ' || c > '~') c = '?';
@@ -44,27 +45,28 @@ class ControlPort {
         ++(stats_.*counter);
         stats_.last_refusal = std::move(sentence);
     }
-    /// Counts an input that the protocol does not allow, and keeps it for bug reports.
+    /// Counts a message that violates the protocol, and keeps it for bug reports.
     void refuse_input(std::string_view protocol, std::span<const std::byte> input,
                       std::string sentence);
     PortStats stats_;
 };
 
-/// A kind of port. A backend is a file kinds/NAME_port.cpp with `NAME_port_entry()`.
+/// Registry entry of a kind of port. A backend is one file, kinds/NAME_port.cpp, with
+/// `NAME_port_entry()`.
 struct PortEntry {
     std::string scheme;
-    std::string words;  ///< how its URL is written, for people
-    /// Throws Error for what cannot be, or is taken.
+    std::string words;  ///< form of its URL, for help
+    /// Opens a port. Throws Error if the URL is not valid or its place is taken.
     std::function<std::unique_ptr<ControlPort>(const OutputUrl& url, const ControlBench& bench)>
         open;
 };
 std::vector<PortEntry> port_entries();
 
-/// Opens whichever kind the URL is of. Throws Error, also for a URL of no kind.
+/// Opens a port by the scheme of its URL. Throws Error, also for an unknown scheme.
 std::unique_ptr<ControlPort> open_port(const std::string& url, const ControlBench& bench);
 
-/// Where a port listens: loopback where the URL has no host. Throws Error for an address beyond
-/// this computer that is not followed by `open=yes`.
+/// Listening address of a port; loopback if the URL has no host. Throws Error for an address beyond
+/// this computer without `open=yes`.
 NetworkPlace listening_place_of(OutputUrl url);
 
 }  // namespace vantage

@@ -20,7 +20,7 @@ ControlPorts::ControlPorts(const std::vector<std::string>& urls, const ControlBe
         port->port = open_port(url, bench);
         ports_.push_back(std::move(port));
     }
-    // Only where all of them could be opened.
+    // Threads start only once all ports are open.
     for (const std::unique_ptr<Port>& port : ports_)
         port->thread = std::thread([this, &port = *port] { run(port); });
 }

@@ -11,23 +11,24 @@
 
 namespace vantage {
 
-/// A port and what it counted.
+/// State and counters of one port.
 struct PortState {
     std::string name;
     PortStats stats;
-    std::string failure;  ///< empty: it works
+    std::string failure;  ///< empty while the port works
 };
 
-/// The ports of a session, each on a thread of its own. One that fails does so alone.
+/// All control ports of a session, each on a thread of its own. A port that fails does not affect
+/// the others.
 class ControlPorts {
   public:
-    /// Throws Error for a URL that cannot be, or a place that is taken.
+    /// Opens all ports. Throws Error for an invalid URL or a place that is taken.
     ControlPorts(const std::vector<std::string>& urls, const ControlBench& bench);
     ~ControlPorts();
     ControlPorts(const ControlPorts&) = delete;
     ControlPorts& operator=(const ControlPorts&) = delete;
 
-    /// Ends them all; what they counted stays.
+    /// Closes all ports; their counters stay readable.
     void close();
     std::vector<PortState> states() const;
 
@@ -39,7 +40,7 @@ class ControlPorts {
     };
     void run(Port& port);
 
-    mutable std::mutex mutex_;  ///< of the states
+    mutable std::mutex mutex_;  ///< guards the states
     std::atomic<bool> is_ending_ = false;
     std::vector<std::unique_ptr<Port>> ports_;
 };

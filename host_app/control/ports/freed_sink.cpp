@@ -19,7 +19,7 @@ class FreedSink final : public PictureSink {
     }
     std::string name() const override { return name_; }
     void take(const ProgrammePicture& picture) override {
-        // UDP: whether anybody is there to hear it does not matter.
+        // UDP has no receipt: a missing receiver is not an error.
         (void)socket_.send(encode_freed(freed_camera(picture.camera, id_)), to_);
     }
 

@@ -7,9 +7,10 @@
 
 namespace vantage {
 
-/// Sends the camera of every tick as FreeD D1: `freed://HOST:PORT`, with `camera=1` for its number.
+/// FreeD sender: sends the camera of every tick as a D1 message to `freed://HOST:PORT`; `camera=1`
+/// sets its number.
 bool is_freed_url(const std::string& url);
-/// Throws Error for what is no such place.
+/// Throws Error if the URL is not valid.
 std::unique_ptr<PictureSink> make_freed_sink(const std::string& url);
 
 }  // namespace vantage

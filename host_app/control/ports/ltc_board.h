@@ -10,7 +10,7 @@
 
 namespace vantage {
 
-/// For people: "3 frames ahead of the house's time code".
+/// Text for operators: "3 frames ahead of the house's time code".
 inline std::string words_of_ltc(std::int64_t frames_ahead) {
     if (frames_ahead == 0) return "in step with the house's time code";
     const std::int64_t frames = std::abs(frames_ahead);
@@ -18,19 +18,19 @@ inline std::string words_of_ltc(std::int64_t frames_ahead) {
            (frames_ahead > 0 ? "ahead of" : "behind") + " the house's time code";
 }
 
-/// The linear time code that comes in.
+/// State of the received linear time code. Thread-safe.
 class LtcBoard {
   public:
     struct State {
-        std::string code;               ///< empty: there is none now
-        std::int64_t frames_ahead = 0;  ///< of the house's time of day
+        std::string code;               ///< empty: no code at present
+        std::int64_t frames_ahead = 0;  ///< relative to the house time of day
     };
     void put(State state) {
         const std::lock_guard lock(mutex_);
         state_ = std::move(state);
         heard_ = MonotonicClock::now();
     }
-    /// What was heard in the last half a second.
+    /// State of the last half second.
     State state() const {
         const std::lock_guard lock(mutex_);
         constexpr std::chrono::milliseconds patience{500};

@@ -7,13 +7,14 @@
 
 namespace vantage {
 
-/// So many a second, and so many at once after a rest.
+/// Rate limit of messages (token bucket): a number per second, and a number at once after a rest.
+/// Not thread-safe.
 class MessageBudget {
   public:
     MessageBudget(double per_second, double at_once)
         : per_second_(per_second), at_once_(at_once), left_(at_once) {}
 
-    /// Whether one more is allowed.
+    /// Returns true if one more message is allowed now.
     bool take(MonotonicTime now) {
         if (last_ != MonotonicTime{})
             left_ = std::min(

@@ -27,7 +27,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-/// A number on the wire, as people count channels.
+/// Converts a channel number from the wire, which counts from 0, to one that counts from 1.
 int counted_from_one(unsigned number) {
     return static_cast<int>(std::min(number, unsigned{std::numeric_limits<short>::max()})) + 1;
 }
@@ -55,8 +55,8 @@ MidiSequencer::MidiSequencer(std::string wanted, std::string what)
         fail("{}: the MIDI sequencer cannot be opened: {}", what_, snd_strerror(error));
     sequencer_.reset(opened);
     snd_seq_set_client_name(opened, "Vantage");
-    // Clocks, aftertouch and dumps steer nothing: the kernel keeps them, and its own news of
-    // subscriptions, which begin with the first.
+    // Clocks, aftertouch and dumps control nothing: the kernel filters them out, with its own
+    // messages about subscriptions. Setting the first filter enables filtering.
     for (const int kind :
          {SND_SEQ_EVENT_NOTEON, SND_SEQ_EVENT_NOTEOFF, SND_SEQ_EVENT_CONTROLLER,
           SND_SEQ_EVENT_PITCHBEND, SND_SEQ_EVENT_PORT_START, SND_SEQ_EVENT_PORT_EXIT})
@@ -89,7 +89,7 @@ std::optional<MidiSequencer::Event> MidiSequencer::plug(Place place) {
         return std::nullopt;
     const int connected =
         snd_seq_connect_from(sequencer_.get(), own_port_, place.client, place.port);
-    // It may have been seen twice, by going through all and by being announced.
+    // The port may have been found twice, by the scan and by its announcement.
     if (connected < 0) return std::nullopt;
     return Event{Event::Kind::plugged, place, name, {}};
 }
@@ -99,7 +99,7 @@ std::optional<MidiSequencer::Event> MidiSequencer::next(std::chrono::millisecond
     snd_seq_client_info_alloca(&client);
     snd_seq_port_info_t* port = nullptr;
     snd_seq_port_info_alloca(&port);
-    // What is plugged in already comes first, one at a time.
+    // Devices that are already plugged in come first, one at a time.
     while (!has_looked_) {
         if (!looked_at_) looked_at_ = Place{SND_SEQ_CLIENT_SYSTEM, -1};
         snd_seq_port_info_set_client(port, looked_at_->client);
@@ -171,7 +171,7 @@ bool MidiSequencer::send(const Place& to, const MidiMessage& message) {
         snd_seq_ev_set_controller(&event, static_cast<unsigned char>(channel),
                                   static_cast<unsigned>(message.number), message.value);
     const int error = snd_seq_event_output_direct(sequencer_.get(), &event);
-    // Asking one that takes nothing again would be of no use.
+    // A device that accepts nothing is not asked again.
     return error >= 0 || error == -EPERM || error == -ENOENT || error == -EINVAL;
 }
 

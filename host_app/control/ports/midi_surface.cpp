@@ -13,11 +13,11 @@ namespace {
 
 constexpr int pressed_from = 64, lower_half = 32, seven_bits = 7;
 constexpr int most_fine_value = (1 << 14) - 1;
-/// Of an encoder in one message: those that count faster turns send some ten. More is another
-/// encoding, in which one click would leap.
+/// Largest number of encoder steps in one message; encoders that count fast turns send about ten. A
+/// greater number means another encoding, in which one click would jump.
 constexpr int most_clicks = 24;
 
-/// Steps of an encoder's message; 0: neither way.
+/// Signed steps of an encoder's message; 0 if it did not turn.
 int encoder_steps(MidiTravel travel, int value) {
     constexpr int half = 64;
     if (travel == MidiTravel::twos) return value < half ? value : value - 2 * half;
@@ -26,7 +26,7 @@ int encoder_steps(MidiTravel travel, int value) {
     return value < half ? value : half - value;
 }
 
-/// -1..1 about the middle, which stands above it where there is no whole one.
+/// Position -1..1 relative to the centre, which is rounded up if it is not an integer.
 double stick_position(int value, int most) {
     const int middle = (most + 1) / 2, from = value - middle;
     return static_cast<double>(from) / (from < 0 ? middle : most - middle);
@@ -50,7 +50,7 @@ MidiSurface::Outcome MidiSurface::take(const MidiMessage& message) {
         return pad.kind == control.kind && pad.number == control.number &&
                (pad.channel == 0 || pad.channel == control.channel);
     });
-    // A lower half belongs to its upper one, whatever else its number could be.
+    // The low half belongs to its high half, even if its number is mapped too.
     if (message.kind == MidiKind::controller && message.number >= lower_half &&
         message.number < 2 * lower_half) {
         MidiMessage upper = message;
@@ -103,7 +103,7 @@ MidiSurface::Outcome MidiSurface::move(const MidiAxisMap& axis, const MidiContro
     }
     double steps = 0;
     if (axis.travel == MidiTravel::fader) {
-        // The first message only tells where it stands: nothing is to leap because of it.
+        // The first message only sets the start position, so that nothing jumps.
         const double now = static_cast<double>(value) / most;
         const auto [was, is_first] = faders_.emplace(control, now);
         steps = is_first ? 0 : (now - was->second) * axis.travel_steps;

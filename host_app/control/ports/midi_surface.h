@@ -10,30 +10,31 @@
 
 namespace vantage {
 
-/// One surface that is plugged in: what its messages come to, and what lights it.
+/// State of one MIDI surface: converts its messages to commands and computes the messages for its
+/// lamps. Not thread-safe.
 class MidiSurface {
   public:
-    /// The map must outlive it.
+    /// The map must outlive this object.
     explicit MidiSurface(const MidiMap& map) : map_(&map) {}
 
     struct Outcome {
         enum class Kind {
-            heard,    ///< it fits; `call` where it asks for something now
-            unknown,  ///< mapped to nothing
+            heard,    ///< the message is valid; `call` is set if it is a command
+            unknown,  ///< the message is not mapped
             malformed,
         } kind = Kind::heard;
         std::optional<CommandCall> call = {};
-        std::string refusal = {};  ///< of what was not heard
+        std::string refusal = {};  ///< reason if the message is not valid
     };
     Outcome take(const MidiMessage& message);
 
-    /// What the sticks that are off their rest ask for in this time.
+    /// Input from all sticks that are off their rest position, for this time.
     FlightInput held(double dt_s) const;
 
-    /// What is to be sent for these lamps: those that changed since the last call, and those of
-    /// controls that were touched, since many pads light by themselves.
+    /// Messages for lamps that changed since the last call, and for controls that were touched,
+    /// since many pads light by themselves.
     std::vector<MidiMessage> due(const ShowLamps& shown);
-    /// All of them are due again.
+    /// Sends all lamps again at the next call.
     void forget_lamps() { lit_.clear(); }
 
   private:
@@ -45,9 +46,9 @@ class MidiSurface {
     Outcome move(const MidiAxisMap& axis, const MidiControl& control, int value, int most);
 
     const MidiMap* map_;
-    std::map<MidiControl, double> faders_;  ///< where they are, 0..1
-    std::map<MidiControl, int> upper_;      ///< halves of what has 14 bits
-    std::map<MidiControl, Held> sticks_;    ///< off their rest
+    std::map<MidiControl, double> faders_;  ///< positions, 0..1
+    std::map<MidiControl, int> upper_;      ///< high halves of values with 14 bits
+    std::map<MidiControl, Held> sticks_;    ///< sticks off their rest position
     std::set<MidiControl> pressed_;
     std::map<MidiControl, bool> lit_;
     bool is_storing_ = false;

@@ -27,7 +27,7 @@ TcpListener::TcpListener(const NetworkPlace& place, std::string what, std::size_
         UniqueFd fd(::socket(address.family(), SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
         attempts.push_back({address, fd ? 0 : errno});
         if (!fd) continue;
-        // A port that was in use a moment ago is free.
+        // Allows a port that was in use a moment ago.
         setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
         if (address.family() == AF_INET6)
             setsockopt(fd.get(), IPPROTO_IPV6, IPV6_V6ONLY, address.is_any() ? &off : &on,

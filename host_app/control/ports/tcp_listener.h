@@ -10,21 +10,21 @@
 
 namespace vantage {
 
-/// TCP sockets that listen at every address of a place, and whoever is connected to them.
+/// TCP server on every address of a place, with its connections. Use it from one thread.
 class TcpListener {
   public:
-    /// Throws Error, naming `what`, if the place is taken.
+    /// Throws Error, with `what` as the server's name, if the place is taken.
     TcpListener(const NetworkPlace& place, std::string what, std::size_t most_peers);
 
-    /// Waits for so long at the most, lets in who asks, and takes what has come. Throws Error if
+    /// Accepts connections and reads their bytes; waits for at most the given time. Throws Error if
     /// the socket has failed.
     struct Arrived {
-        int peer = 0;       ///< a number of its own for every connection
-        std::string bytes;  ///< empty: it is gone
+        int peer = 0;       ///< unique number of the connection
+        std::string bytes;  ///< empty: the connection is closed
     };
     std::vector<Arrived> receive(std::chrono::milliseconds most);
     void close(int peer);
-    /// Who was turned away since there were too many.
+    /// Number of connections that were refused because there were too many.
     std::uint64_t turned_away() const { return turned_away_; }
 
   private:
@@ -36,7 +36,7 @@ class TcpListener {
 
     std::string what_;
     std::size_t most_peers_;
-    std::vector<UniqueFd> fds_;  ///< one for each address of the place
+    std::vector<UniqueFd> fds_;  ///< one for each address
     std::vector<Peer> peers_;
     int next_number_ = 1;
     std::uint64_t turned_away_ = 0;

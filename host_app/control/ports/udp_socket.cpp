@@ -15,7 +15,7 @@
 namespace vantage {
 namespace {
 
-/// What waits in the kernel is old: a short row of messages is enough.
+/// Size of the kernel's buffer; it is small, since waiting messages are outdated.
 constexpr int receive_buffer_bytes = 1 << 16;
 
 UniqueFd udp_fd(int family) {
@@ -33,7 +33,7 @@ bool join(int fd, const SocketAddress& group, unsigned interface) {
     return setsockopt(fd, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) == 0;
 }
 
-/// On every network of this computer that is up. Throws Error if none takes part.
+/// Joins the group on every network interface that is up. Throws Error if none can join.
 void join_everywhere(int fd, const SocketAddress& group, const std::string& what) {
     std::string joined;
     int error = ENODEV;
@@ -69,7 +69,7 @@ UdpSocket UdpSocket::bound(const NetworkPlace& place, const std::string& what) {
         setsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes,
                    sizeof receive_buffer_bytes);
         setsockopt(fd.get(), SOL_SOCKET, SO_RXQ_OVFL, &on, sizeof on);
-        // Several programs of this computer may listen to a group.
+        // Several programs on this computer may listen to one group.
         if (address.is_multicast()) setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
         if (address.family() == AF_INET6)
             setsockopt(fd.get(), IPPROTO_IPV6, IPV6_V6ONLY, address.is_any() ? &off : &on,
@@ -120,7 +120,7 @@ std::optional<UdpSocket::Datagram> UdpSocket::receive_from(Listener& listener) {
     header.msg_controllen = sizeof control;
     const ssize_t size = ::recvmsg(listener.fd.get(), &header, 0);
     if (size < 0) {
-        // A peer that is gone says so at the next call; that is no fault of this socket.
+        // The error of a closed peer appears at the next call and is not an error of this socket.
         if (errno == EAGAIN || errno == EINTR || errno == ECONNREFUSED) return std::nullopt;
         fail("{} has failed: {}", what_, std::strerror(errno));
     }

@@ -15,28 +15,29 @@
 
 namespace vantage {
 
-/// The first address of the place. Throws Error, naming `what`, for a name that does not resolve.
+/// Resolves a place to its first address. Throws Error, with `what` as the socket's name, if the
+/// name does not resolve.
 SocketAddress resolve(const NetworkPlace& place, const std::string& what);
 
-/// A UDP socket that never waits when it sends.
+/// UDP socket that never blocks when it sends.
 class UdpSocket {
   public:
-    /// Listens at every address of the place, IPv4 and IPv6; a group of multicast it joins on every
-    /// network of this computer. Throws Error, naming `what` and the addresses, if the place is
-    /// taken or the group cannot be joined.
+    /// Binds to every address of the place, IPv4 and IPv6; joins a multicast group on every network
+    /// interface. Throws Error, with `what` and the addresses, if the place is taken or the group
+    /// cannot be joined.
     static UdpSocket bound(const NetworkPlace& place, const std::string& what);
-    /// Only sends, to places of this kind of address.
+    /// Creates a socket that only sends to addresses of this family.
     static UdpSocket sending(const SocketAddress& to);
 
     struct Datagram {
-        std::span<const std::byte> bytes;  ///< until the next receive()
+        std::span<const std::byte> bytes;  ///< valid until the next receive()
         SocketAddress from;
     };
-    /// Waits for so long at the most. Throws Error if the socket has failed.
+    /// Waits for a datagram for at most this time. Throws Error if the socket has failed.
     std::optional<Datagram> receive(std::chrono::milliseconds most);
-    /// False: it did not go out.
+    /// Returns false if the datagram was not sent.
     bool send(std::span<const std::byte> bytes, const SocketAddress& to) const;
-    /// Datagrams that came and found no room, since the socket was opened.
+    /// Number of datagrams that the kernel dropped for lack of room since the socket was opened.
     std::uint64_t overrun() const { return overrun_; }
 
   private:
@@ -49,7 +50,7 @@ class UdpSocket {
     std::optional<Datagram> receive_from(Listener& listener);
 
     std::vector<Listener> listeners_;
-    std::size_t next_ = 0;  ///< that is looked at first, so that none waits for another
+    std::size_t next_ = 0;  ///< descriptor that is checked first, so that none starves
     std::string what_;
     std::uint64_t overrun_ = 0;
     std::array<std::byte, 65536> buffer_{};

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdarg>
 
-// Of its error handlers the header leaves the linkage to C++.
+// The header declares the error handlers without C linkage.
 extern "C" {
 #include <alsa/asoundlib.h>
 }
@@ -15,7 +15,7 @@ extern "C" {
 namespace vantage {
 namespace {
 
-/// What waits in the device: enough for a programme's stutter.
+/// Target of the device's buffer in samples: 0.1 s covers jitter of the programme.
 constexpr std::int64_t waiting_samples = sound_rate_hz / 10;
 constexpr unsigned playback_buffer_us = 500'000, playback_period_us = 10'000;
 
@@ -69,7 +69,7 @@ bool AlsaPlayback::play(std::span<const float> samples) {
         return false;
     std::vector<float> both;
     for (const float sample : samples) both.insert(both.end(), sound_channels, sample);
-    // A programme that is slower than the device empties it, a faster one fills it.
+    // Clock drift between programme and device slowly fills or empties the buffer.
     const auto count = static_cast<std::int64_t>(samples.size());
     const std::int64_t off = waiting_samples - static_cast<std::int64_t>(waiting);
     const std::int64_t mend = std::abs(off) < waiting_samples / 4

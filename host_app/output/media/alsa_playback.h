@@ -10,20 +10,19 @@ struct _snd_pcm;
 
 namespace vantage {
 
-/// A device of ALSA that one channel of sound is played to, on all channels that it has, at 48000
-/// samples a second. Its clock is its own: where it runs off, what it is given is stretched by half
-/// a percent at the most.
+/// Plays one channel of sound at 48 kHz on all channels of an ALSA device. The device has its own
+/// clock: drift is corrected by stretching the sound by at most 0.5 percent.
 class AlsaPlayback {
   public:
-    /// Throws Error if it cannot be opened, or plays at another rate.
+    /// Throws Error if the device cannot be opened or needs another rate.
     explicit AlsaPlayback(const std::string& name);
     ~AlsaPlayback();
     AlsaPlayback(const AlsaPlayback&) = delete;
     AlsaPlayback& operator=(const AlsaPlayback&) = delete;
 
-    /// False: it has no room now. Throws Error if the device is gone.
+    /// Returns false if the device's buffer is full. Throws Error if the device is gone.
     bool play(std::span<const float> samples);
-    /// Times that it had nothing to play.
+    /// Number of times that the buffer ran empty.
     std::uint64_t underruns() const { return underruns_; }
 
   private:

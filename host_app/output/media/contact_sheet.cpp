@@ -13,7 +13,7 @@ const cv::Scalar ground(18, 20, 24, 255), cell_ground(0, 0, 0, 255), bright(232,
 
 constexpr int margin_px = 16, caption_px = 30, moment_title_px = 36, title_px = 60;
 
-/// Text whose capitals stand on `baseline`, made smaller where it would be wider than `width_px`.
+/// Draws text on `baseline`, reduced in size if it would be wider than `width_px`.
 void write_text(ColourImage& sheet, const std::string& text, cv::Point baseline, int width_px,
                 double scale, const cv::Scalar& colour) {
     int descent = 0;
@@ -30,7 +30,7 @@ void place(ColourImage& sheet, const ColourImage& picture, const cv::Rect& cell)
                         std::max(1, static_cast<int>(std::lround(scale * picture.rows))));
     ColourImage fitted;
     cv::resize(picture, fitted, size, 0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
-    // Alpha tells coverage, which a sheet does not show.
+    // Alpha holds coverage, which a contact sheet does not show.
     for (cv::Vec4b& pixel : fitted) pixel[3] = 255;
     const cv::Point corner(cell.x + (cell.width - size.width) / 2,
                            cell.y + (cell.height - size.height) / 2);

@@ -8,21 +8,21 @@
 
 namespace vantage {
 
-/// One picture of a contact sheet, with the words below it.
+/// One image of a contact sheet with its caption.
 struct SheetStill {
     ColourImage picture;
     std::string caption;
 };
 
-/// One row: what was seen at one moment.
+/// One row of a contact sheet: the images of one moment.
 struct SheetMoment {
     std::string title;
     std::vector<SheetStill> stills;
 };
 
-/// Puts stills on one sheet for people: a row for every moment, every still in a cell of
-/// `cell_width_px` with the shape of the first still, scaled to fit without distortion.
-/// Precondition: at least one moment, and in each at least one still.
+/// Composes a contact sheet: one row per moment, each still in a cell of `cell_width_px` with the
+/// aspect ratio of the first still, scaled without distortion. Precondition: at least one moment,
+/// and at least one still in each.
 ColourImage compose_contact_sheet(const std::string& title, std::span<const SheetMoment> moments,
                                   int cell_width_px);
 

@@ -8,17 +8,17 @@
 
 namespace vantage {
 
-/// Brings what is written to a file to its disk once a second, on a thread of its own, so that a
-/// power cut costs no more, and whoever writes does not wait for it.
+/// Flushes a file to its disk once a second on a thread of its own. A power cut then loses about
+/// one second, and the writer never waits for the disk.
 class DiskSync {
   public:
-    /// The file is there.
+    /// The file must exist.
     explicit DiskSync(const std::filesystem::path& path);
 
-    /// At once, and waits for it.
+    /// Flushes the file now and waits for it.
     void now();
-    /// The system's reason for what did not get there; 0: all did. write() may go on well
-    /// meanwhile, until memory or the file system is full.
+    /// errno of a failed flush; 0: none. write() may still succeed in the meantime, until memory or
+    /// the file system is full.
     int failure() const { return failure_; }
 
   private:

@@ -5,8 +5,8 @@
 
 namespace vantage {
 
-/// A rig's disparity for people: blue is far, red the nearest that the rig searched for, black
-/// unknown. The range stays the same from frame to frame.
+/// Colours a rig's disparity for display: blue is far, red is the nearest searched disparity, black
+/// is unknown. The range is the same for all frames.
 ColourImage disparity_picture(const RigFrame& frame);
 
 }  // namespace vantage

@@ -23,7 +23,7 @@ const char* container_of(const std::filesystem::path& path) {
     fail("{} cannot be written: a film is a .mkv or .mp4 file, not '{}'", path.string(), extension);
 }
 
-/// Whether a file opens and has a picture.
+/// True if the file opens and contains a frame.
 bool is_readable(const std::filesystem::path& path) {
     AVFormatContext* input = nullptr;
     if (avformat_open_input(&input, ("file:" + path.string()).c_str(), nullptr, nullptr) < 0)
@@ -66,7 +66,7 @@ AVStream& FilmFile::add_stream(const AVCodecParameters& parameters, AVRational t
     AVStream* stream = avformat_new_stream(output_.get(), nullptr);
     if (!stream || avcodec_parameters_copy(stream->codecpar, &parameters) < 0)
         fail("{} cannot be written: memory is short", path_.string());
-    // Each container has its own.
+    // Codec tags differ between containers.
     stream->codecpar->codec_tag = 0;
     stream->time_base = time_base;
     return *stream;
@@ -84,10 +84,10 @@ void FilmFile::open(const AVCodecParameters& pictures, AVRational time_base, AVR
         fail_writing(code);
     sync_.emplace(partial_);
     output_->flags |= AVFMT_FLAG_FLUSH_PACKETS;
-    // What a failure may cost: a cluster of Matroska, a fragment of MP4.
+    // Amount that is lost after a failure: one Matroska cluster or one MP4 fragment.
     av_opt_set_int(output_->priv_data, "cluster_time_limit", 1000, 0);
     av_opt_set_int(output_->priv_data, "frag_duration", 1'000'000, 0);
-    // The head waits for the first fragment, which says when the film begins.
+    // The header is written with the first fragment, whose time is the start of the film.
     av_opt_set(output_->priv_data, "movflags", "delay_moov+default_base_moof", 0);
 }
 
@@ -125,7 +125,7 @@ void FilmFile::finish() {
 
 bool FilmFile::keep_what_is_written() noexcept {
     if (finished_) return true;
-    // Without the index that an end would write, the file still opens.
+    // Without its index the file still opens.
     if (has_begun_ && !is_ended_) av_write_trailer(output_.get());
     is_ended_ = true;
     avio_closep(&output_->pb);

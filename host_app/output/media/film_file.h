@@ -11,48 +11,50 @@
 
 namespace vantage {
 
-/// Throws Error if no film has such a name.
+/// Throws Error if the name has no extension of a film.
 void require_film_name(const std::filesystem::path& path);
 
-/// A film's file, Matroska or MP4 by the path's extension (.mkv, .mp4), into which coded pictures
-/// go. It is written beside its name and put there by finish(); until then, and if finish() is
-/// never reached, a file that stood there stays. A power cut leaves what was written until a second
-/// or two before beside its name, and it opens.
+/// Writer of a film file, Matroska or MP4 by its extension (.mkv, .mp4), for encoded packets. It
+/// writes to a temporary name, and finish() renames the file; without finish() an existing file
+/// stays. After a power cut the temporary file holds everything up to the last one or two seconds,
+/// and it opens.
 class FilmFile {
   public:
-    /// Throws Error if the extension cannot be used.
+    /// Throws Error if the extension is not supported.
     explicit FilmFile(std::filesystem::path path);
     ~FilmFile();
     FilmFile(const FilmFile&) = delete;
     FilmFile& operator=(const FilmFile&) = delete;
 
     const std::filesystem::path& path() const { return path_; }
-    /// What sound a file of this kind has: MP4 is read everywhere with AAC only.
+    /// Sound codec for this kind of file. All players can read AAC in MP4, but not every other
+    /// codec.
     SoundEncoder::Codec sound_codec() const;
-    /// Whether the stream has its head once, at its beginning.
+    /// True if the container stores the codec's header once, at its start.
     bool has_head() const;
 
-    /// What the packets are of, and in what their times are. Throws Error if the folder cannot be
-    /// used.
-    /// `sound`: with times in samples; null: the film has none.
+    /// Opens the file for packets with these parameters and time base. Throws Error if the folder
+    /// cannot be used.
+    /// `sound`: its times are in samples; null if the film has none.
     void open(const AVCodecParameters& pictures, AVRational time_base, AVRational rate,
               const AVCodecParameters* sound = nullptr);
-    /// After open(), before the first packet: the time code that the film begins with, as
-    /// TimecodeClock writes it, or empty. Kept in Matroska as the stream's tag `timecode`, in MP4
-    /// as a time code track.
+    /// Sets the time code at the start of the film, as TimecodeClock formats it, or empty. Call it
+    /// after open() and before the first packet. Matroska stores it as the stream's tag `timecode`,
+    /// MP4 as a time code track.
     void begin(const std::string& timecode);
     bool has_begun() const { return has_begun_; }
-    /// In the order of decoding; what the packet holds is taken. Throws Error if the disk fails.
+    /// Writes a packet and takes its content. Packets come in decoding order. Throws Error if the
+    /// disk fails.
     void write(AVPacket& packet);
     void write_sound(AVPacket& packet);
-    /// Ends the film and puts the file in its place. Throws Error if the disk fails.
+    /// Completes the film and renames it to its final name. Throws Error if the disk fails.
     void finish();
 
-    /// After a failure, the last call: puts what was written until then in its place, if it can be
-    /// read. False: it cannot, and a file that stood there stays.
+    /// Call it last, after a failure: renames the file to its final name if it can be read. Returns
+    /// false if it cannot; an existing file then stays.
     bool keep_what_is_written() noexcept;
 
-    /// Written so far; what the muxer holds back is not in it.
+    /// Bytes written so far, without those that the muxer buffers.
     std::uint64_t bytes() const { return bytes_; }
 
   private:
@@ -65,7 +67,7 @@ class FilmFile {
     AvOutputPtr output_;
     std::optional<DiskSync> sync_;
     AVStream* stream_ = nullptr;  ///< owned by output_
-    AVStream* sound_ = nullptr;   ///< likewise; null: none
+    AVStream* sound_ = nullptr;   ///< owned by output_; null: no sound
     AVRational time_base_{1, 1};
     std::uint64_t bytes_ = 0;
     bool has_begun_ = false, is_ended_ = false, finished_ = false;

@@ -10,9 +10,9 @@
 namespace vantage {
 namespace {
 
-/// Of a box at the top of the file: ISO/IEC 14496-12, 4.2.
+/// Header of a top-level box: ISO/IEC 14496-12, 4.2.
 struct BoxHead {
-    std::uint64_t bytes = 0;  ///< 0: to the end of the file
+    std::uint64_t bytes = 0;  ///< 0: until the end of the file
     std::array<char, 4> type{};
 
     std::string_view name() const { return {type.data(), type.size()}; }
@@ -40,7 +40,7 @@ void cut_to_whole_fragments(const std::filesystem::path& path) {
     const std::uint64_t file_bytes = std::filesystem::file_size(path, error);
     std::ifstream in(path, std::ios::binary);
     if (error || !in) fail("cannot read {}", path.string());
-    // A fragment is a box `moof` with the box `mdat` behind it.
+    // A fragment consists of a `moof` box and the `mdat` box after it.
     std::uint64_t whole = 0;
     for (std::uint64_t at = 0; at < file_bytes;) {
         in.seekg(static_cast<std::streamoff>(at));

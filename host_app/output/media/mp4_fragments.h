@@ -4,8 +4,8 @@
 
 namespace vantage {
 
-/// Cuts off what a failure left of a fragment behind the last whole one of a fragmented MP4 file:
-/// players stumble over half a picture. Throws Error if the file cannot be read or cut.
+/// Removes an incomplete fragment at the end of a fragmented MP4 file, since players fail on an
+/// incomplete frame. Throws Error if the file cannot be read or cut.
 void cut_to_whole_fragments(const std::filesystem::path& path);
 
 }  // namespace vantage

@@ -33,7 +33,7 @@ PictureConverter::PictureConverter(int width_px, int height_px, AVPixelFormat fo
 
 AVFrame& PictureConverter::convert(const ColourImage& picture) {
     assert(picture.cols >= frame_->width && picture.rows >= frame_->height);
-    // An encoder may still hold the last one.
+    // An encoder may still hold a reference to the last frame.
     if (av_frame_make_writable(frame_.get()) < 0) fail("memory is short");
     const std::uint8_t* rows[] = {picture.data};
     const int strides[] = {static_cast<int>(picture.step)};

@@ -5,15 +5,15 @@
 
 namespace vantage {
 
-/// Makes a programme's picture (RGBA) one of another pixel format: YUV by ITU-R BT.709 in studio
-/// range, as television has it.
+/// Converts RGBA images to another pixel format; YUV is ITU-R BT.709 in studio range. Not
+/// thread-safe.
 class PictureConverter {
   public:
-    /// Throws Error if there is no way to that format.
+    /// Throws Error if FFmpeg cannot convert to that format.
     PictureConverter(int width_px, int height_px, AVPixelFormat format);
 
-    /// At least of the converter's size; what is beyond is left out. The frame is good until the
-    /// next call.
+    /// The image has at least the converter's size; the rest is cropped. The frame is valid until
+    /// the next call.
     AVFrame& convert(const ColourImage& picture);
 
   private:

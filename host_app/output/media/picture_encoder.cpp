@@ -23,13 +23,13 @@ constexpr const char* vaapi = "h264_vaapi";
 constexpr const char* nvenc = "h264_nvenc";
 constexpr const char* x264 = "libx264";
 
-/// FFmpeg's complaint where there is one, else what its return value means.
+/// FFmpeg's last log message if there is one, else the text of its error code.
 std::string reason(int code) {
     const std::string remark = take_av_remark();
     return remark.empty() ? av_reason(code) : remark;
 }
 
-/// Where an encoder knows no quality, only a rate: what looks well at 1280x720.
+/// Bit rate for encoders that have no quality setting, scaled from a good rate at 1280x720.
 std::int64_t usual_bit_rate_bps(const EncoderSettings& settings) {
     constexpr double bits_a_pixel = 0.15;
     return std::llround(bits_a_pixel * settings.width_px * settings.height_px * settings.rate_hz);
@@ -56,7 +56,7 @@ PictureEncoder::PictureEncoder(const std::string& name, const EncoderSettings& s
     context_->height = settings.height_px & ~1;
     context_->pix_fmt = AV_PIX_FMT_YUV420P;
     const PulseGrid::Fraction rate = PulseGrid(settings.rate_hz).rate();
-    // MPEG-4 takes clocks of 16 bits only.
+    // MPEG-4 limits the time base to 16 bits.
     constexpr std::int64_t most_mpeg4 = 65535;
     av_reduce(&context_->framerate.num, &context_->framerate.den, rate.pulses, rate.seconds,
               codec->id == AV_CODEC_ID_MPEG4 ? most_mpeg4 : INT32_MAX);
@@ -85,7 +85,8 @@ void PictureEncoder::set_quality(const EncoderSettings& settings) {
     if (settings.bit_rate_bps || !has_quality) {
         context_->bit_rate = settings.bit_rate_bps.value_or(usual_bit_rate_bps(settings));
         context_->rc_max_rate = context_->bit_rate;
-        // Of a second; half of one is what a receiver of a stream waits for at most.
+        // Buffer of one second; for a live stream half a second, which is the longest wait of a
+        // receiver.
         context_->rc_buffer_size =
             static_cast<int>(settings.is_live ? context_->bit_rate / 2 : context_->bit_rate);
     }

@@ -11,39 +11,39 @@
 namespace vantage {
 
 struct EncoderSettings {
-    int width_px = 0, height_px = 0;  ///< of the pictures; an odd last row or column is left out
-    double rate_hz = 30;              ///< 29.97 and its like are n * 1000 / 1001
-    /// Nothing: what the quality needs.
+    int width_px = 0, height_px = 0;  ///< of the frames; an odd last row or column is cropped
+    double rate_hz = 30;              ///< 29.97 and similar rates are n * 1000 / 1001
+    /// Empty: whatever the quality needs.
     std::optional<std::int64_t> bit_rate_bps = {};
-    double quality = 20;    ///< x264's constant rate factor, 0 (lossless) .. 51, or what is like it
-    bool is_live = false;   ///< no picture waits for a later one, and one may join any second
-    bool has_head = false;  ///< the container has the stream's head once, at its beginning
+    double quality = 20;    ///< x264's constant rate factor, 0 (lossless) .. 51, or the equivalent
+    bool is_live = false;   ///< no reordered frames, and a key frame every second
+    bool has_head = false;  ///< the container stores the codec's header once, at its start
 };
 
-/// The encoders that are tried, the fastest first.
+/// Names of the supported encoders in the order in which they are tried, fastest first.
 std::vector<std::string> known_encoders();
 
-/// Throws Error, naming the nearest one, for what is none of them.
+/// Throws Error with the most similar name if the encoder is not supported.
 void require_known_encoder(const std::string& name);
 
-/// Encodes a programme's pictures with one of FFmpeg's encoders, colours by ITU-R BT.709. Picture n
-/// is shown from n / rate on.
+/// Encoder of the programme's frames with one of FFmpeg's video encoders, in ITU-R BT.709. Frame n
+/// has the time n / rate. Not thread-safe.
 class PictureEncoder {
   public:
-    /// Throws Error with the reason if there is no such encoder here, or if it does not take
-    /// pictures of this size.
+    /// Throws Error with the reason if this computer has no such encoder, or if it does not accept
+    /// this size.
     PictureEncoder(const std::string& name, const EncoderSettings& settings);
 
-    /// Of its time base, size and head.
+    /// Codec context with time base, size and header.
     const AVCodecContext& context() const { return *context_; }
     std::string name() const { return context_->codec->name; }
 
-    /// Numbers grow. Throws Error if the encoder fails.
+    /// Encodes a frame. Numbers ascend. Throws Error if the encoder fails.
     void add(const ColourImage& picture, std::int64_t number);
-    /// No more pictures follow.
+    /// Signals the end of the frames.
     void end();
-    /// The next packet that is done, good until the next call; null: none now. Throws Error if the
-    /// encoder fails.
+    /// Next finished packet, valid until the next call; null if there is none now. Throws Error if
+    /// the encoder fails.
     AVPacket* next();
 
   private:
@@ -53,13 +53,13 @@ class PictureEncoder {
     AvCodecContextPtr context_;
     std::optional<PictureConverter> converter_;
     AvBufferPtr device_;
-    AvFramePtr uploaded_;  ///< where the encoder reads from the GPU's memory
+    AvFramePtr uploaded_;  ///< used if the encoder reads from GPU memory
     AvPacketPtr packet_;
 };
 
-/// The first of known_encoders() that encodes pictures of these settings when it is tried; with
-/// `request` that one. Tells in the log which it is, and why those before it are not. Throws Error
-/// if none does.
+/// Returns the first of known_encoders() that encodes a test frame with these settings; with
+/// `request`, only that one is tried. Logs the choice and why others failed. Throws Error if none
+/// works.
 std::string choose_encoder(const std::string& request, const EncoderSettings& settings);
 
 }  // namespace vantage

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// -1 to 1 as 24 bits, in the upper ones of 32.
+/// Converts -1..1 to 24 bits in the high bits of 32.
 std::int32_t to_s32(float value) {
     constexpr float most = 8388607;
     const auto whole =

@@ -9,24 +9,24 @@
 
 namespace vantage {
 
-/// Encodes a programme's sound with one of FFmpeg's encoders. Times of packets are samples since
-/// the first one; a packet before that is what the encoder needs to begin.
+/// Encoder of the programme's sound with one of FFmpeg's encoders. Packet times are in samples
+/// since the first sample; packets with negative times are the encoder's priming. Not thread-safe.
 class SoundEncoder {
   public:
     enum class Codec {
-        pcm,  ///< 24 bits, as it is
+        pcm,  ///< 24 bits, uncompressed
         aac,  ///< 192 kbit/s
     };
-    /// `has_head`: as EncoderSettings. Throws Error if FFmpeg has no such encoder.
+    /// `has_head`: see EncoderSettings. Throws Error if FFmpeg has no such encoder.
     SoundEncoder(Codec codec, bool has_head);
 
-    /// Of its time base and head.
+    /// Codec context with time base and header.
     const AVCodecContext& context() const { return *context_; }
-    /// What comes next. Throws Error if the encoder fails.
+    /// Encodes the next samples. Throws Error if the encoder fails.
     void add(std::span<const float> samples);
-    /// No more follow.
+    /// Signals the end of the sound.
     void end();
-    /// The next packet that is done, good until the next call; null: none now.
+    /// Next finished packet, valid until the next call; null if there is none now.
     AVPacket* next();
 
   private:
@@ -36,26 +36,26 @@ class SoundEncoder {
     AvCodecContextPtr context_;
     AvFramePtr frame_;
     std::deque<AvPacketPtr> done_;
-    AvPacketPtr given_;           ///< by next()
-    std::vector<float> waiting_;  ///< for a whole frame of the encoder's
+    AvPacketPtr given_;           ///< returned by next()
+    std::vector<float> waiting_;  ///< samples for the encoder's next complete frame
     std::int64_t sent_ = 0;
 };
 
-/// A programme's sound on its way to one file or stream: goes on from tick to tick, silent where
-/// something was left out, so that it stays with the pictures.
+/// Continuous sound track for one file or stream. Ticks that were dropped become silence, so that
+/// the sound stays in sync with the frames.
 class SoundTrack {
   public:
     SoundTrack(double rate_hz, SoundEncoder::Codec codec, bool has_head)
         : grid_(rate_hz), encoder_(codec, has_head) {}
 
     SoundEncoder& encoder() { return encoder_; }
-    /// Of a tick, counted from the first picture's.
+    /// Adds the sound of a tick; ticks count from the first frame.
     void add(const SoundBlock& block, std::int64_t tick);
 
   private:
     SoundGrid grid_;
     SoundEncoder encoder_;
-    std::int64_t next_ = 0;  ///< sample, as blocks count them
+    std::int64_t next_ = 0;  ///< next sample, in the blocks' count
     bool has_begun_ = false;
 };
 

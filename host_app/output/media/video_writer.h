@@ -13,39 +13,39 @@
 namespace vantage {
 
 struct VideoSettings {
-    int width_px = 0, height_px = 0;  ///< of the pictures; an odd last row or column is left out
-    double rate_hz = 30;              ///< 29.97 and its like are n * 1000 / 1001
+    int width_px = 0, height_px = 0;  ///< of the frames; an odd last row or column is cropped
+    double rate_hz = 30;              ///< 29.97 and similar rates are n * 1000 / 1001
     double quality = 20;              ///< x264's constant rate factor, 0 (lossless) .. 51
-    std::optional<std::int64_t> bit_rate_bps = {};  ///< nothing: what the quality needs
+    std::optional<std::int64_t> bit_rate_bps = {};  ///< empty: whatever the quality needs
     std::string encoder = "libx264";                ///< one of known_encoders()
     bool has_sound = false;
 };
 
-/// Encodes pictures as H.264, colours by ITU-R BT.709, into a FilmFile.
+/// Writer of a film: encodes frames as H.264 in ITU-R BT.709 into a FilmFile. Not thread-safe.
 class VideoWriter {
   public:
     /// Throws Error if the extension, the size or the folder cannot be used.
     VideoWriter(std::filesystem::path path, const VideoSettings& settings);
 
-    /// Takes the picture that is shown from tick / rate on, counted from the start of the film;
-    /// ticks grow (Matroska stores milliseconds). Throws Error if the disk or the encoder fails.
+    /// Adds the frame with the time tick / rate since the start of the film; ticks ascend (Matroska
+    /// stores milliseconds). Throws Error if the disk or the encoder fails.
     ///
-    /// `timecode` is the film's at its start: the first picture's is kept.
+    /// `timecode` of the first frame becomes that of the film.
     void add(const ColourImage& picture, std::int64_t tick, const std::string& timecode = {});
 
-    /// Sound of that tick, in their order, where the settings say that there is any. Throws Error
-    /// likewise. Precondition: a picture was added.
+    /// Adds the sound of a tick, in ascending order, if the settings include sound. Throws like
+    /// add(). Precondition: a frame was added.
     void hear(const SoundBlock& sound, std::int64_t tick);
 
-    /// Ends the film and puts the file in its place. Throws Error if the disk fails, or if no
-    /// picture was added.
+    /// Completes the film and renames it to its final name. Throws Error if the disk fails, or if
+    /// no frame was added.
     void finish();
 
-    /// As FilmFile's.
+    /// See FilmFile.
     bool keep_what_is_written() noexcept { return file_.keep_what_is_written(); }
 
     std::uint64_t frames() const { return frames_; }
-    /// As FilmFile's.
+    /// See FilmFile.
     std::uint64_t bytes() const { return file_.bytes(); }
 
   private:

@@ -8,8 +8,8 @@
 
 namespace vantage {
 
-/// A WAV file of one channel of 16 bits at 48000 Hz. It is written beside its name, and gets its
-/// name when it is whole.
+/// Writer of a WAV file with one channel of 16 bits at 48 kHz. The file gets its final name once it
+/// is complete.
 class WavFile {
   public:
     /// Throws Error if it cannot be written.

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-/// How long or large a part of a film is; neither: the film is one file.
+/// Largest length and size of one part of a film; without them the film is one file.
 struct FilmParts {
     std::optional<double> seconds;
     std::optional<std::uint64_t> bytes;
@@ -41,19 +41,19 @@ FilmParts parts_of(const OutputUrl& url) {
     return parts;
 }
 
-/// "film-001.mkv" of "film.mkv".
+/// Path of a part: "film-001.mkv" of "film.mkv".
 std::filesystem::path part_path(const std::filesystem::path& path, int number) {
     return path.parent_path() /
            fmt::format("{}-{:03}{}", path.stem().string(), number, path.extension().string());
 }
 
-/// What every opening of one film has in common.
+/// State that all openings of one film share.
 struct Film {
     std::filesystem::path path;
     VideoSettings settings;
     FilmParts parts;
     bool overwrites = false;
-    bool has_begun = false;  ///< what is begun again must not replace what was written before
+    bool has_begun = false;  ///< started before, so that earlier files must not be replaced
     int last_part = 0;
 
     std::filesystem::path next_path() {
@@ -80,7 +80,7 @@ class FilmTarget final : public OutputTarget {
         writer_->add(picture, tick - first_tick_, timecode);
     }
     void hear(const SoundBlock& sound, std::int64_t tick) override {
-        // What belongs to the end of a part that is written already.
+        // Sound of a part that is already complete is skipped.
         if (writer_->frames() > 0 && tick >= first_tick_) writer_->hear(sound, tick - first_tick_);
     }
     void finish() override { writer_->finish(); }
@@ -107,7 +107,7 @@ class FilmTarget final : public OutputTarget {
     std::shared_ptr<Film> film_;
     std::optional<VideoWriter> writer_;
     std::int64_t first_tick_ = 0;
-    std::uint64_t written_ = 0;  ///< in the parts before
+    std::uint64_t written_ = 0;  ///< bytes of earlier parts
 };
 
 OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::string_view device_scheme = "alsa:";
 
-/// How a programme's ticks are counted as time code.
+/// Frame counts of a programme's rate as time code.
 struct LtcRate {
     double frames_a_second = 25;
     int ticks_a_frame = 1;
-    SmpteCount ticks, frames;  ///< as a tick's code counts, and as the sound does
+    SmpteCount ticks, frames;  ///< counts of the ticks' codes and of the sound's codes
 };
 
-/// Nothing: there is no linear time code of such a rate.
+/// Empty if there is no linear time code of this rate.
 std::optional<LtcRate> ltc_rate_of(double rate_hz) {
     const double rate = PulseGrid(rate_hz).rate_hz();
     for (const double each : {24.0, 25.0, 30000.0 / 1001, 30.0})
@@ -47,7 +47,7 @@ class LtcTarget final : public OutputTarget {
     }
 
     void write(const ColourImage&, std::int64_t tick, const std::string& timecode) override {
-        // What was left out of pictures is counted all the same.
+        // Ticks of dropped frames count too.
         for (; next_tick_ < tick; ++next_tick_) add(std::nullopt);
         add(SmpteCode::parse(timecode));
         ++next_tick_;
@@ -64,7 +64,7 @@ class LtcTarget final : public OutputTarget {
             silence();
             return;
         }
-        // A frame of two ticks begins with the even one, and lasts for both.
+        // A time code frame of two ticks starts at the even tick.
         const std::int64_t number = *rate_.ticks.frame_of(*code);
         if (rate_.ticks_a_frame == 2 && number % 2 != 0) {
             if (!in_frame_) silence();

@@ -23,8 +23,8 @@ namespace {
 
 constexpr const char* y4m = "y4m";
 
-/// Pictures without times, one after the other: a picture that was left out is made up for by
-/// repeating the one after it, as soon as the reader keeps up again.
+/// Raw frames without time stamps to a pipe. A dropped frame is replaced by repeating the frame
+/// after it, once the reader keeps up again.
 class PipeTarget final : public OutputTarget {
   public:
     PipeTarget(int fd, const std::string& form, const OutputFormat& format,
@@ -35,7 +35,7 @@ class PipeTarget final : public OutputTarget {
           patience_(patience),
           converter_(format.width_px, format.height_px, pixels_) {
         if (fd_.get() < 0) fail("the descriptor cannot be used: {}", std::strerror(errno));
-        // A reader that leaves is this output's fault, not the program's end.
+        // A reader that closes the pipe fails this output, and must not end the program.
         std::signal(SIGPIPE, SIG_IGN);
         if (!is_y4m_) return;
         const PulseGrid::Fraction rate = PulseGrid(format.rate_hz).rate();
@@ -70,8 +70,8 @@ class PipeTarget final : public OutputTarget {
     void send(const std::vector<char>& bytes) {
         for (std::size_t at = 0; at < bytes.size();) {
             if (patience_.is_over()) fail("its reader does not read on");
-            // Somebody else's descriptor stays as it is, blocking or not: of so few bytes none
-            // waits where there is room.
+            // The descriptor may be shared, so that its blocking mode stays unchanged. A small
+            // write does not block while poll() reports room.
             constexpr int look_ms = 50;
             constexpr std::size_t never_blocks = PIPE_BUF;
             pollfd room{.fd = fd_.get(), .events = POLLOUT, .revents = 0};
@@ -91,7 +91,7 @@ class PipeTarget final : public OutputTarget {
     bool is_y4m_;
     const OutputPatience& patience_;
     PictureConverter converter_;
-    std::vector<char> packed_;  ///< the last picture, as it is written
+    std::vector<char> packed_;  ///< the last frame, in the written format
     std::int64_t sent_ = 0, owed_ = 0;
     std::uint64_t bytes_ = 0;
 };

@@ -21,7 +21,7 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
                                     .encoding = stream_encoding(url, format),
                                     .has_sound = format.has_sound,
                                     .is_listening = is_listening};
-    // libsrt tells FFmpeg no more of a refusal than of nobody.
+    // libsrt reports a refused connection like a missing peer.
     if (!is_listening)
         settings.silence =
             "nobody listens there, or the listener has another passphrase or streamid";

@@ -22,13 +22,13 @@ struct PixelLayout {
     std::uint32_t v4l2;
     AVPixelFormat av;
 };
-/// What devices take, the most common first.
+/// Pixel formats of devices, most common first.
 constexpr std::array<PixelLayout, 4> layouts{{{V4L2_PIX_FMT_YUYV, AV_PIX_FMT_YUYV422},
                                               {V4L2_PIX_FMT_UYVY, AV_PIX_FMT_UYVY422},
                                               {V4L2_PIX_FMT_RGB24, AV_PIX_FMT_RGB24},
                                               {V4L2_PIX_FMT_RGBX32, AV_PIX_FMT_RGB0}}};
 
-/// A device that takes pictures by write(): v4l2loopback, or an output of a card.
+/// V4L2 output device that takes frames by write(): v4l2loopback, or an output of a card.
 class V4l2Target final : public OutputTarget {
   public:
     V4l2Target(std::string device, const OutputFormat& format, const OutputPatience& patience)
@@ -80,14 +80,15 @@ class V4l2Target final : public OutputTarget {
                     "or the device that format",
                     device_, pixels_.width, pixels_.height, format.width_px, format.height_px);
             converter_.emplace(format.width_px, format.height_px, layout.av);
-            // Not sizeimage, which may be whole pages: readers take no picture that is longer.
+            // sizeimage is not used, since it may be rounded up to whole pages, and readers reject
+            // longer frames.
             packed_.assign(std::size_t{pixels_.bytesperline} * pixels_.height, 0);
             return;
         }
         fail("{} takes none of the formats YUYV, UYVY, RGB24, RGBX", device_);
     }
 
-    /// What the device tells its readers; some know none.
+    /// Sets the frame rate that readers of the device see; some devices have none.
     void set_rate(double rate_hz) const {
         const PulseGrid::Fraction rate = PulseGrid(rate_hz).rate();
         v4l2_streamparm request{};

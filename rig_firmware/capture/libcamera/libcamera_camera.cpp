@@ -33,7 +33,7 @@
 namespace vantage {
 namespace {
 
-/// libcamera's names of the forms that Vantage takes, in the order of preference.
+/// libcamera's names of the supported pixel formats, in order of preference.
 struct KnownFormat {
     libcamera::PixelFormat theirs;
     PixelFormat ours;
@@ -60,7 +60,7 @@ std::shared_ptr<libcamera::Camera> find_camera(const libcamera::CameraManager& m
     for (const std::shared_ptr<libcamera::Camera>& camera : manager.cameras()) {
         const std::string model = model_of(*camera);
         listed += fmt::format("{}'{}' ({})", listed.empty() ? "" : ", ", camera->id(), model);
-        // An id is taken as it is before it is taken for a pattern: ids may hold brackets.
+        // An exact id goes before a pattern, since ids may contain brackets.
         if (camera->id() == pattern) return camera;
         if (::fnmatch(pattern.c_str(), camera->id().c_str(), 0) == 0 ||
             ::fnmatch(pattern.c_str(), model.c_str(), 0) == 0)
@@ -77,7 +77,7 @@ std::shared_ptr<libcamera::Camera> find_camera(const libcamera::CameraManager& m
          fitting.size(), listed);
 }
 
-/// The planes of one buffer, mapped as one piece.
+/// Memory mapping of all planes of one buffer, as one piece.
 class MappedBuffer {
   public:
     explicit MappedBuffer(const libcamera::FrameBuffer& buffer) {
@@ -111,8 +111,9 @@ class MappedBuffer {
     std::size_t begin_ = 0, length_ = 0;
 };
 
-/// The kernel's devices of a camera. libcamera hears of their end from udev, some time after it,
-/// and ends the process (0.3 to 0.7 at least) where a camera is stopped or given a buffer between.
+/// Kernel devices of a camera. libcamera learns from udev, with some delay, that they are gone; it
+/// aborts the process (at least versions 0.3 to 0.7) if a camera is stopped or given a buffer in
+/// between.
 class KernelDevices {
   public:
     explicit KernelDevices(const libcamera::Camera& camera) {
@@ -133,10 +134,10 @@ class KernelDevices {
     std::vector<std::string> entries_;
 };
 
-/// Work that libcamera's thread does between its own.
+/// Work that runs on libcamera's own thread.
 class Errand : public libcamera::Object {
   public:
-    /// Returns when the work is done.
+    /// Runs `work` on libcamera's thread and waits until it is done.
     static void run(libcamera::Camera& camera, std::function<void()> work) {
         const auto end_there = [](Errand* errand) { errand->deleteLater(); };
         const std::unique_ptr<Errand, decltype(end_there)> errand(
@@ -273,7 +274,8 @@ class LibcameraCamera final : public SensorCamera {
                         specimen() ? "" : ", every picture is converted on the processor"));
     }
 
-    /// Exposure, gain and white balance as configured; what the camera has no control for is said.
+    /// Controls for the configured exposure, gain and white balance. Logs each setting that the
+    /// camera has no control for.
     libcamera::ControlList fixed_controls(const RigConfig::Source& settings) {
         namespace controls = libcamera::controls;
         libcamera::ControlList list(camera_->controls());
@@ -310,7 +312,7 @@ class LibcameraCamera final : public SensorCamera {
         return list;
     }
 
-    /// On libcamera's thread.
+    /// Called on libcamera's thread.
     void on_completed(libcamera::Request* request) {
         if (request->status() == libcamera::Request::RequestCancelled) return;
         {
@@ -337,7 +339,8 @@ class LibcameraCamera final : public SensorCamera {
         if (format_ == PixelFormat::mjpg)
             bytes =
                 bytes.first(std::min<std::size_t>(bytes.size(), metadata.planes()[0].bytesused));
-        // The sensor's own time where the pipeline knows it, else the driver's of the buffer.
+        // The sensor's own time stamp if the pipeline has one, else the driver's time stamp of the
+        // buffer.
         const auto sensor_time = request.metadata().get(libcamera::controls::SensorTimestamp);
         try {
             SensorPicture picture{.sequence = metadata.sequence,
@@ -384,7 +387,7 @@ class LibcameraCamera final : public SensorCamera {
                 .lease = {}};
     }
 
-    /// On any thread; libcamera's queue is safe for that.
+    /// Any thread; libcamera's queue is thread-safe.
     void take_back(unsigned index) noexcept {
         if (queue_again(*requests_[index])) return;
         lost_ = true;
@@ -401,7 +404,7 @@ class LibcameraCamera final : public SensorCamera {
             await_disconnection();
         else if (started_)
             camera_->stop();
-        // libcamera's thread may still be told to do things with requests and slots that end here.
+        // libcamera's thread may still have queued calls that use these requests and slots.
         Errand::run(*camera_, [this] {
             camera_->requestCompleted.disconnect(this);
             camera_->disconnected.disconnect(this);
@@ -433,17 +436,17 @@ class LibcameraCamera final : public SensorCamera {
 
     mutable WakeEvent ready_;
     std::mutex mutex_;
-    std::deque<libcamera::Request*> completed_;  ///< as many as there are requests at most
+    std::deque<libcamera::Request*> completed_;  ///< at most as many as there are requests
     std::atomic<bool> lost_ = false;
-    std::atomic<bool> disconnected_ = false;  ///< and libcamera knows
+    std::atomic<bool> disconnected_ = false;  ///< libcamera knows it too
     bool lends_ = false;
-    BufferLender lender_;  ///< last: what comes back uses what stands above
+    BufferLender lender_;  ///< the last member, since returned buffers use the members above
 };
 
 }  // namespace
 
 std::shared_ptr<libcamera::CameraManager> start_camera_manager() {
-    // It logs to standard error by itself; what ends its work is said by what it returns.
+    // libcamera logs to standard error by default; its return values report its errors.
     libcamera::logSetTarget(libcamera::LoggingTargetNone);
     auto manager = std::shared_ptr<libcamera::CameraManager>(new libcamera::CameraManager,
                                                              [](libcamera::CameraManager* stopped) {

@@ -12,14 +12,13 @@ class CameraManager;
 
 namespace vantage {
 
-/// libcamera as a whole; there is one in a process.
+/// Starts libcamera's camera manager; a process may have only one.
 std::shared_ptr<libcamera::CameraManager> start_camera_manager();
 
-/// A camera of libcamera whose requests go round for ever; every picture is converted once, into
-/// memory of its own, and its buffer goes back to the driver. Exposure, gain and white balance are
-/// fixed as far as the camera lets them. `pattern`: an id, or one with * and ? that fits exactly
-/// one camera's id or model. Throws Error that lists the cameras, or the formats and sizes, there
-/// are.
+/// Opens a libcamera camera with a ring of requests. Every image is converted once into its own
+/// memory, and its buffer goes back to the driver. Exposure, gain and white balance are fixed as
+/// far as the camera allows. `pattern` is an id, or a pattern with * and ? that matches exactly one
+/// camera's id or model. Throws Error that lists the cameras, or the formats and sizes.
 std::unique_ptr<SensorCamera> open_libcamera_camera(
     std::shared_ptr<libcamera::CameraManager> manager, const std::string& pattern,
     const RigConfig::Source& request, bool side_by_side);

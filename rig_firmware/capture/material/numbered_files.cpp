@@ -13,7 +13,8 @@ namespace {
 
 constexpr int max_digits = 9;
 
-/// The number that a file name has between its fixed parts, if it is written as the pattern would.
+/// Number between the fixed parts of a file name; empty unless it is written as the pattern would
+/// write it.
 std::optional<int> number_in(std::string_view name, std::string_view before,
                              std::string_view after) {
     if (name.size() <= before.size() + after.size() || !name.starts_with(before) ||

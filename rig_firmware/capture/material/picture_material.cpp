@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-/// So many pictures of a series are looked at for the range of their codes before it is played.
+/// Number of images of a series that are sampled for their range of values before playback.
 constexpr std::size_t range_samples = 16;
 
 StereoPair read_pair(const std::filesystem::path& left, const std::filesystem::path& right,
@@ -60,7 +60,7 @@ class SinglePair final : public StereoMaterial {
 
 using PairFiles = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;
 
-/// Pairs of files one after the other; a right name that is empty: side by side.
+/// Series of image pairs, one file per side; an empty right name means side-by-side images.
 class PairSeries final : public StereoMaterial {
   public:
     PairSeries(PairFiles files, bool loop) : files_(std::move(files)), loop_(loop) {
@@ -105,7 +105,7 @@ class PairSeries final : public StereoMaterial {
     CodeRange range_;
     cv::Size size_;
     std::optional<std::uint64_t> first_pulse_;
-    std::uint64_t shown_to_ = 0;  ///< position after the last one shown
+    std::uint64_t shown_to_ = 0;  ///< index after the last pair shown
 };
 
 PairFiles numbered_pairs(const RigConfig::Source& source) {

@@ -45,7 +45,7 @@ std::optional<Pulse> PulsePacer::wait_next(std::chrono::nanoseconds timeout) {
         return std::nullopt;
     }
     sleep_until(pulse.time);
-    // The clock was set back meanwhile.
+    // The clock was set back while this thread slept.
     if (TaiClock::now() < pulse.time) return std::nullopt;
     pulse.monotonic = monotonic_now + (pulse.time - now);
     take(pulse);

@@ -14,26 +14,27 @@ struct Pulse {
     MonotonicTime monotonic{};  ///< the same moment, for durations
 };
 
-/// Says which pulse of the stage's clock a source delivers next, for sources that follow the clock
-/// themselves. A source that is late gets the newest pulse; those it left out are counted.
+/// Decides which pulse of the stage's clock a source delivers next, for sources that follow the
+/// clock themselves. A late source gets the newest pulse, and the pulses it left out are counted.
+/// Not thread-safe.
 class PulsePacer {
   public:
     explicit PulsePacer(const PulseGrid& grid) : grid_(grid) {}
 
-    /// Waits until the next pulse and takes it; empty when the time is up before. Absolute
-    /// deadlines on CLOCK_TAI.
+    /// Waits for the next pulse and takes it; empty after `timeout`. Uses absolute deadlines on
+    /// CLOCK_TAI.
     std::optional<Pulse> wait_next(std::chrono::nanoseconds timeout);
 
-    /// The pulse to wait for at `now`: the one after the last taken, or the newest if more have
-    /// passed. If the clock was set back by more than two periods, the pulses go back with it.
+    /// Pulse to wait for at `now`: the one after the last taken, or the newest if more have passed.
+    /// If the clock was set back by more than two periods, the indices go back with it.
     Pulse due(TaiTime now) const;
-    /// Counts what lies between the last one taken and this one as missed. If CLOCK_TAI was set
-    /// meanwhile, the missed pulses are those that CLOCK_MONOTONIC has room for.
+    /// Counts the pulses between the last one taken and this one as missed. If CLOCK_TAI was set in
+    /// between, CLOCK_MONOTONIC determines how many were missed.
     void take(const Pulse& pulse);
 
-    /// Pulses left out since the first one taken.
+    /// Number of pulses left out since the first one taken.
     std::uint64_t missed() const { return missed_; }
-    /// How often the clock was set.
+    /// Number of times the clock was set.
     std::uint64_t clock_steps() const { return clock_steps_; }
 
   private:

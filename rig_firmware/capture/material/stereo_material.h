@@ -14,23 +14,23 @@ struct StereoPair {
     ColourImage left, right;  ///< same size
 };
 
-/// A side-by-side picture cut in the middle; the halves share its memory. Throws Error, naming
-/// `what` it is, if its width is odd.
+/// Splits a side-by-side image in the middle; the halves share its memory. Throws Error, with
+/// `what` as the name of the image, if the width is odd.
 StereoPair split_side_by_side(const ColourImage& picture, const std::string& what);
 
-/// Recorded stereo pictures: single ones, series, or videos.
+/// Recorded stereo images: single pairs, series or videos. Use it from one thread.
 class StereoMaterial {
   public:
     virtual ~StereoMaterial() = default;
 
-    virtual cv::Size size() const = 0;  ///< of each picture of a pair
-    /// Pictures a second as the material itself says; 0: it does not.
+    virtual cv::Size size() const = 0;  ///< of each image of a pair
+    /// Frame rate of the material in frames per second; 0 if it states none.
     virtual double rate_hz() const { return 0; }
-    /// The pair for the pulse; empty at the end of material that does not loop. Pulses are asked
-    /// for in rising order. Throws Error naming the file that is missing, damaged or of another
-    /// size.
+    /// Returns the pair for a pulse; empty at the end of material that does not loop. Pulses come
+    /// in ascending order. Throws Error with the file that is missing, damaged or of another size.
     virtual std::optional<StereoPair> pair_of(std::uint64_t pulse_index) = 0;
-    /// Of material that has ended: pairs behind the last one shown, whose pulses were missed.
+    /// Number of pairs after the last one shown, once the material has ended. Their pulses were
+    /// missed.
     virtual std::uint64_t unshown() const { return 0; }
     /// One line for the start-up report.
     virtual std::string describe() const = 0;
@@ -39,19 +39,18 @@ class StereoMaterial {
 /// True for a folder, and for a shell pattern with * or ?.
 bool is_list(const std::string& name);
 
-/// Opens what [source] names with left, right, first and loop. Throws Error with the mend.
+/// Opens the material of [source] (left, right, first and loop). Throws Error with the mend.
 std::unique_ptr<StereoMaterial> open_material(const RigConfig::Source& source);
 
-/// Pictures. Series (numbered ones, those that a shell pattern matches, those of a folder) that
-/// loop are bound to the pulse, so that rigs which play the parts of one take show the same instant
-/// whenever each was started: pulse k shows picture k modulo their number. Without looping the
-/// first pulse shows the first picture. Pictures of missed pulses are left out.
+/// Opens images: a pair, numbered files, a shell pattern or a folder. A looping series is bound to
+/// the pulse: pulse k shows image k modulo their number. Rigs that play parts of one take thus show
+/// the same frame set, whenever each was started. Without looping, the first pulse shows the first
+/// image. Images of missed pulses are skipped.
 std::unique_ptr<StereoMaterial> open_pictures(const RigConfig::Source& source);
 
-/// A side-by-side video, or one a side, of any form that FFmpeg knows; the shorter of two ends a
-/// round. Every pulse shows the next picture, so that
-/// a computer that cannot decode at the pulses' rate plays it slower and does not fall behind for
-/// ever.
+/// Opens one side-by-side video, or one video per side, in any format of FFmpeg; the shorter video
+/// ends a round. Every pulse shows the next frame. A computer that cannot decode at the pulse rate
+/// therefore plays more slowly instead of falling behind without limit.
 std::unique_ptr<StereoMaterial> open_video(const RigConfig::Source& source);
 
 }  // namespace vantage

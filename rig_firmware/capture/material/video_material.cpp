@@ -9,8 +9,8 @@
 namespace vantage {
 namespace {
 
-/// One video, from the beginning as often as asked. The next round is opened, and its first picture
-/// decoded, on a thread of its own while this one plays, so that no pulse waits for it.
+/// Video that can restart any number of times. A separate thread opens the next round and decodes
+/// its first frame while this one plays, so that no pulse waits for it.
 class VideoRounds {
   public:
     VideoRounds(std::string path, bool loop) : path_(std::move(path)), round_(open(path_)) {
@@ -19,7 +19,7 @@ class VideoRounds {
         if (loop) prepare();
     }
 
-    /// Empty at the end of a round.
+    /// Next frame; empty at the end of a round.
     std::optional<ColourImage> next() {
         std::optional<ColourImage> picture = std::exchange(round_.first, std::nullopt);
         if (!picture) picture = round_.reader->next();
@@ -29,7 +29,7 @@ class VideoRounds {
         return picture;
     }
 
-    /// Of a video that loops.
+    /// Starts the next round of a looping video.
     void begin_again() {
         round_ = upcoming_.get();
         prepare();
@@ -97,7 +97,7 @@ class VideoMaterial final : public StereoMaterial {
     }
 
   private:
-    /// Empty where either video has ended.
+    /// Next pair; empty once either video has ended.
     std::optional<StereoPair> next() {
         std::optional<ColourImage> left = left_.next();
         if (!left) return std::nullopt;
@@ -109,7 +109,7 @@ class VideoMaterial final : public StereoMaterial {
 
     bool loop_;
     VideoRounds left_;
-    std::unique_ptr<VideoRounds> right_;  ///< none: side by side
+    std::unique_ptr<VideoRounds> right_;  ///< null: side by side
     cv::Size size_;
 };
 

@@ -28,7 +28,7 @@ struct VideoReader::Impl {
         if (stream_ < 0 || !decoder) fail("{} holds no video that can be decoded", path);
         codec_.reset(avcodec_alloc_context3(decoder));
         avcodec_parameters_to_context(codec_.get(), format->streams[stream_]->codecpar);
-        codec_->thread_count = 0;  // as many as there are processors
+        codec_->thread_count = 0;  // one thread for each processor
         if (const int code = avcodec_open2(codec_.get(), decoder, nullptr); code < 0)
             fail("the video of {} cannot be decoded: {}", path, av_reason(code));
     }
@@ -43,7 +43,7 @@ struct VideoReader::Impl {
         }
     }
 
-    /// Hands the decoder the next packet of the video, or tells it that there is none.
+    /// Sends the next packet of the video to the decoder, or the end of the stream.
     void feed() {
         for (;;) {
             const int code = av_read_frame(format_.get(), packet_.get());
@@ -88,7 +88,7 @@ struct VideoReader::Impl {
 };
 
 VideoReader::VideoReader(const std::string& path) {
-    // What goes wrong is said by our own sentence.
+    // Our own sentence reports errors, so FFmpeg's log is kept for it.
     keep_av_log();
     impl_ = std::make_unique<Impl>(path);
 }

@@ -8,18 +8,18 @@
 
 namespace vantage {
 
-/// Decodes the pictures of a video file of any form that FFmpeg knows, one after the other.
+/// Decoder of a video file in any format of FFmpeg, frame by frame. Use it from one thread.
 class VideoReader {
   public:
     /// Throws Error, naming the file, if it cannot be read as a video.
     explicit VideoReader(const std::string& path);
     ~VideoReader();
 
-    /// Empty at the end. Throws Error for what is damaged or too large.
+    /// Next frame; empty at the end. Throws Error for a frame that is damaged or too large.
     std::optional<ColourImage> next();
 
     const char* codec_name() const;
-    /// Pictures a second as the file states them; 0: it does not say.
+    /// Frame rate of the file in frames per second; 0 if it states none.
     double rate_hz() const;
 
   private:

@@ -9,17 +9,18 @@
 
 namespace vantage {
 
-/// How late the two sensors of a rig without cameras expose, and the bar before them that shows it.
+/// Simulated delay of the two sensors of a rig without cameras, and the sync bar in front of them
+/// that shows it.
 class VirtualSkew {
   public:
-    /// By [virtual_rig] and exposure_us of [source]. Throws Error for a bar that cannot be.
+    /// Uses [virtual_rig] and exposure_us of [source]. Throws Error for a bar that is not possible.
     VirtualSkew(const RigConfig& config, cv::Size picture);
 
     std::chrono::nanoseconds left() const { return left_; }
     std::chrono::nanoseconds right() const { return right_; }
 
-    /// Draws the bar, if there is one, as both sensors see it that are exposed for this pulse. The
-    /// pictures' memory is left as it is where others share it.
+    /// Draws the bar, if there is one, as both sensors see it when they are exposed for this pulse.
+    /// Images that share their memory are copied first.
     void draw_bar(ColourImage& left, ColourImage& right, TaiTime pulse) const;
 
   private:

@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-/// Plays recorded stereo pictures on the pulses of the stage's clock.
+/// Source that plays recorded stereo images on the pulses of the stage's clock.
 class FilesSource final : public StereoSource {
   public:
     explicit FilesSource(const RigConfig& config)
@@ -58,7 +58,7 @@ class FilesSource final : public StereoSource {
     VirtualSkew skew_;
     double rate_hz_;
     bool ended_ = false;
-    std::uint64_t missed_ = 0;  ///< of the material's pictures
+    std::uint64_t missed_ = 0;  ///< of the material's images
 };
 
 }  // namespace

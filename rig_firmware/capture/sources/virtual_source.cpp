@@ -16,8 +16,8 @@
 namespace vantage {
 namespace {
 
-/// Films the virtual stage: pulse k shows it at the time of pulse k since 1970 TAI, so that the
-/// rigs of a stage, each a process of its own, see the same instants.
+/// Source that films the virtual stage. Pulse k shows it at the time of pulse k since 1970 TAI, so
+/// that all rigs of a stage, each in its own process, see the same moments.
 class VirtualSource final : public StereoSource {
   public:
     explicit VirtualSource(const RigConfig& config)
@@ -28,7 +28,7 @@ class VirtualSource final : public StereoSource {
           stage_(shaders_, static_cast<std::uint64_t>(scene_)),
           pulses_(config.source.rate_hz),
           pacer_(pulses_),
-          // Exact depth comes with every frame anew.
+          // Exact depth is rendered for every frame.
           loop_(size(), stage_loop, pulses_,
                 config.match.matcher == exact_matcher
                     ? 0
@@ -39,7 +39,8 @@ class VirtualSource final : public StereoSource {
                 "'doffs_px' in [virtual_rig] is {}, and the virtual source films with parallel "
                 "cameras only: leave it 0",
                 config.virtual_rig.doffs_px);
-        // Drivers finish their programs at the first drawing: seconds, where the processor draws.
+        // Drivers finish compiling at the first draw call, which takes seconds with software
+        // rendering.
         (void)rig_.render(stage_, {}, 0);
         if (config.virtual_rig.loop_ahead) film_loop(config.virtual_rig.loop_mb);
     }
@@ -97,7 +98,7 @@ class VirtualSource final : public StereoSource {
             (void)film(pulses_.time_of(pair).time_since_epoch());
     }
 
-    /// Without noise: as it was kept a loop of the stage ago, or else drawn.
+    /// Returns the noise-free frame, from the cache or rendered.
     VirtualStereoFrame film(std::chrono::nanoseconds time) {
         VirtualStereoFrame picture;
         if (std::optional<PairLoop::Pair> known = loop_.find(time)) {

@@ -28,7 +28,7 @@ MonotonicTime to_monotonic(const timeval& t) {
     return monotonic_from_ns((t.tv_sec * std::int64_t{1'000'000} + t.tv_usec) * 1000);
 }
 
-/// A v4l2_buffer with room for its one plane, right for both forms of the interface.
+/// v4l2_buffer with room for one plane, for both the single-planar and the multi-planar API.
 struct BufferRequest {
     v4l2_plane plane{};
     v4l2_buffer buffer{};
@@ -71,7 +71,7 @@ V4l2Camera::V4l2Camera(const V4l2Settings& request)
             "{} ('{}') delivers no pictures: it is another kind of video node, and `vantage-rig "
             "probe` lists the cameras",
             request.path.string(), device_.card());
-    // An HDMI receiver follows its sender only when told to; cameras know no such timings.
+    // An HDMI receiver adopts its sender's timings only on request; cameras have no such timings.
     v4l2_dv_timings timings{};
     if (device_.try_request(VIDIOC_QUERY_DV_TIMINGS, &timings))
         device_.try_request(VIDIOC_S_DV_TIMINGS, &timings);
@@ -190,8 +190,8 @@ void V4l2Camera::set_controls(const std::map<std::string, int>& requests) {
                  device_.path().string(), found->least, found->most, value);
         settings.emplace_back(*found, value);
     }
-    // A manual value is refused while its automatic is on, and the names' order knows nothing of
-    // that: what is refused the first time is tried again after all others.
+    // Drivers refuse a manual value while its automatic control is on. Settings that were refused
+    // are tried again after all others.
     std::vector<std::pair<V4l2Control, int>> again;
     for (const auto& [control, value] : settings) {
         v4l2_control wanted{.id = control.id, .value = value};
@@ -257,7 +257,7 @@ void V4l2Camera::take_back(std::uint32_t index) noexcept {
     try {
         queue(index);
     } catch (const std::exception& error) {
-        // Nobody waits here: the next take() meets the same fault.
+        // The next take() meets and reports the same error.
         log_debug("{}", error.what());
     }
 }
@@ -298,7 +298,7 @@ std::optional<SensorPicture> V4l2Camera::take() {
                 picture.colour = to_colour(whole.raw);
             }
         } catch (const Error& error) {
-            // One damaged picture is the camera's or the cable's fault and no reason to stop.
+            // One damaged frame is an error of the camera or the cable, and the stream continues.
             log_debug("{}: {}", device_.path().string(), error.what());
         }
         queue(buffer.index);

@@ -21,21 +21,20 @@ namespace vantage {
 
 struct V4l2Settings {
     std::filesystem::path path;
-    int width_px = 0, height_px = 0;  ///< of what the device delivers
+    int width_px = 0, height_px = 0;  ///< size of the device's images
     double rate_hz = 0;
-    std::string
-        pixel_format;  ///< four characters, or empty: the first that is known and has the size
-    std::map<std::string, int> controls;  ///< by the driver's name, upper and lower case alike
-    bool share_buffers = true;            ///< as dma-bufs, where the driver can
+    std::string pixel_format;  ///< four characters; empty: the first known format with this size
+    std::map<std::string, int> controls;  ///< by the driver's names, case-insensitive
+    bool share_buffers = true;            ///< as dma-bufs, if the driver can
 };
 
-/// A V4L2 camera that streams into mapped buffers, which the driver shares as dma-bufs where it can
-/// (VIDIOC_EXPBUF). Pictures are lent, or converted, in which case their buffers go back to the
-/// driver at once. Throws as V4l2Device does.
+/// V4L2 camera that streams into mapped buffers, which the driver shares as dma-bufs if it can
+/// (VIDIOC_EXPBUF). Images are either lent, or converted with their buffers returned at once.
+/// Throws like V4l2Device.
 class V4l2Camera final : public SensorCamera {
   public:
-    /// Opens, sets the mode and the controls, and starts. Throws Error that lists what the driver
-    /// has if it does not support the settings.
+    /// Opens the device, sets mode and controls, and starts streaming. Throws Error that lists the
+    /// driver's modes if it does not support the settings.
     explicit V4l2Camera(const V4l2Settings& request);
     ~V4l2Camera() override;
     V4l2Camera(const V4l2Camera&) = delete;
@@ -55,10 +54,10 @@ class V4l2Camera final : public SensorCamera {
         PixelFormat format = PixelFormat::grey;
         int width_px = 0, height_px = 0;
         std::size_t bytes_per_line = 0;
-        double rate_hz = 0;  ///< 0: the driver does not say
+        double rate_hz = 0;  ///< 0: the driver reports no rate
     };
 
-    /// One buffer of the driver, mapped into this process.
+    /// Buffer of the driver, mapped into this process.
     class Mapping {
       public:
         Mapping(int fd, std::size_t length, std::int64_t offset);
@@ -91,7 +90,7 @@ class V4l2Camera final : public SensorCamera {
     std::vector<std::shared_ptr<const Mapping>> buffers_;
     std::uint64_t damaged_ = 0;
     bool lends_ = false;
-    BufferLender lender_;  ///< last: what comes back uses what stands above
+    BufferLender lender_;  ///< the last member, since returned buffers use the members above
 };
 
 }  // namespace vantage

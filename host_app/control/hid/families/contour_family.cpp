@@ -35,7 +35,7 @@ class ContourDecoder final : public JogDecoder {
         if (report.size() != 5) return false;
         const int notch = int8_at(report, 0);
         if (notch < -last_notch || notch > last_notch) return false;
-        // Where the counter stands when the device is opened means nothing.
+        // The counter's value at the time of opening has no meaning.
         const auto turned = static_cast<std::int8_t>(report[1] - counter_);
         if (has_counter_ && turned != 0) events.push_back({JogKind::step, "jog", double(turned)});
         counter_ = report[1];

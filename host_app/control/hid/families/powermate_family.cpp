@@ -7,8 +7,8 @@
 namespace vantage {
 namespace {
 
-/// Griffin PowerMate. The kernel's own driver takes it, so it comes as evdev events: REL_DIAL,
-/// about 94 a turn, and BTN_0 for a press.
+/// Griffin PowerMate. The kernel has its own driver for it, so that it delivers evdev events:
+/// REL_DIAL, about 94 per turn, and BTN_0 for a press.
 class PowerMateDecoder final : public JogDecoder {
   public:
     std::vector<JogControl> controls() const override {
@@ -22,7 +22,7 @@ class PowerMateDecoder final : public JogDecoder {
             std::memcpy(&event, report.data() + at, sizeof event);
             if (event.type == EV_REL && event.code == REL_DIAL && event.value != 0)
                 events.push_back({JogKind::step, "jog", double(event.value)});
-            // 2 is the kernel's repetition of a key that is held.
+            // 2 is the kernel's auto-repeat of a held key.
             if (event.type == EV_KEY && event.code == BTN_0 && event.value != 2)
                 events.push_back({JogKind::button, "press", event.value != 0 ? 1.0 : 0.0});
         }

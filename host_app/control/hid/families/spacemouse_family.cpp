@@ -47,7 +47,7 @@ class SpaceMouseDecoder final : public JogDecoder {
                 return true;
             }
             default:
-                // Battery, calibration, long presses.
+                // Reports of the battery, calibration and long presses need no action.
                 return true;
         }
     }
@@ -70,7 +70,7 @@ class SpaceMouseDecoder final : public JogDecoder {
     HeldButtons buttons_;
 };
 
-/// A receiver has other interfaces too; the one that speaks is a multi-axis controller.
+/// True for the interface of a multi-axis controller; a receiver has other interfaces too.
 bool is_multi_axis(const JogPlace& place) {
     constexpr std::uint16_t generic_desktop = 1, multi_axis_controller = 8;
     if (place.usage_page == 0) return place.interface_number <= 0;

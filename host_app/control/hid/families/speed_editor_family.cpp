@@ -31,13 +31,13 @@ constexpr Key keys[] = {{0x01, "smart_insert"}, {0x02, "append"},      {0x03, "r
 constexpr std::uint16_t shuttle_key = 0x1c, jog_key = 0x1d, scroll_key = 0x1e;
 
 /// DaVinci Resolve Speed Editor.
-///   report 3  u8 mode of the wheel, int32 its value, u8: in modes 0 and 2 what it turned since the
-///             report before, in modes 1 and 3 where it stands; 8192 are about a turn
+///   report 3  u8 mode of the wheel, int32 value, u8: steps since the previous report in modes 0
+///             and 2, position in modes 1 and 3; 8192 are about one turn
 ///   report 4  up to six held keys, u16 each
 ///   report 7  u8 charging, u8 battery in percent
-/// Its keys JOG and SCRL make the wheel count steps, SHTL makes it a shuttle: that is the device's
-/// own way, so it is done here. As a shuttle the wheel has no spring; it stands at 0 where it stood
-/// when SHTL was pressed, with a dead zone of the device's own.
+/// Its keys JOG and SCRL make the wheel count steps; SHTL makes it a shuttle. These modes belong to
+/// the device, so that this class sets them and not the profile. As a shuttle the wheel has no
+/// spring; its zero is the position at which SHTL was pressed, with a dead zone in the device.
 class SpeedEditorDecoder final : public JogDecoder {
   public:
     std::vector<JogControl> controls() const override {

@@ -13,11 +13,10 @@ constexpr JogId xk68[] = {{0x05f3, 0x045a}, {0x05f3, 0x045c}};
 /// P.I. Engineering X-keys with a jog & shuttle knob, no report id.
 ///   0     unit id
 ///   1     bit 0: program switch; 214: a report of another kind (version)
-///   2...  a byte for every column of keys, bit 0 its top row: 10 columns of the XK-68, 4 of the
+///   2...  one byte per column of keys, bit 0 is its top row: 10 columns on the XK-68, 4 on the
 ///         XK-12
-///   then  jog, signed: detents since the report before; shuttle, signed, -7..7; four bytes of
-///   time.
-///         In the XK-68 from byte 16 on, in the XK-12 from byte 6 on
+///   then  jog, signed: detents since the previous report; shuttle, signed, -7..7; four bytes
+///         of time. They begin at byte 16 on the XK-68, at byte 6 on the XK-12
 class XkeysDecoder final : public JogDecoder {
   public:
     explicit XkeysDecoder(JogId id) {

@@ -7,10 +7,10 @@
 
 namespace vantage {
 
-/// A Contour ShuttleXpress without hands: turns words into the reports that the wheel would send.
+/// Simulated Contour ShuttleXpress: converts commands into the reports that the wheel would send.
 ///   jog N       N detents, clockwise if positive, -100 to 100
-///   shuttle N   the ring at N and there it stays, -7 to 7
-///   bN          button N pressed and let go, 1 to 5
+///   shuttle N   turn the ring to N and leave it there, -7 to 7
+///   bN          press and release button N, 1 to 5
 class SimulatedXpress {
   public:
     using Report = std::array<std::uint8_t, 5>;
@@ -19,8 +19,8 @@ class SimulatedXpress {
     static constexpr const char* name = "Contour Design ShuttleXpress";
     static constexpr const char* words = "jog 3, jog -3, shuttle 4, shuttle 0, b1 to b5";
 
-    /// Throws Error naming the word that does not fit. The first report is how the wheel stands
-    /// already, since whoever opens a wheel takes the first one as that.
+    /// Throws Error with the word that is not valid. The first report is the initial position,
+    /// since a reader of a wheel takes its first report as that.
     std::vector<Report> reports_of(const std::string& line);
 
   private:

@@ -12,24 +12,24 @@
 
 namespace vantage {
 
-/// A HID device that exists only in the kernel: made through /dev/uhid when constructed (plugged
-/// in) and gone when destroyed (unplugged). To the rest of the system it is as real as any.
+/// Simulated HID device, made through /dev/uhid: construction plugs it in, destruction unplugs it.
+/// The rest of the system cannot tell it from a real one.
 class UhidWheel {
   public:
     struct Kind {
         std::uint16_t vendor = 0, product = 0;
         std::string name;
         std::vector<std::uint8_t> descriptor;
-        /// Answers feature reports: what is read of one; and what is written to one.
+        /// Callbacks for feature reports: one to read a report, one to write it.
         std::function<std::vector<std::uint8_t>(std::uint8_t id)> get_feature;
         std::function<void(std::span<const std::uint8_t> report)> set_feature;
     };
-    /// The descriptor of input reports of so many bytes without an id.
+    /// Descriptor of input reports with this number of bytes and without an id.
     static std::vector<std::uint8_t> input_of(std::uint8_t bytes);
-    /// As Contour's wheels have.
+    /// Descriptor with the report size of Contour's wheels.
     static std::vector<std::uint8_t> five_bytes() { return input_of(5); }
 
-    /// Throws Error where there is no /dev/uhid or this user may not open it.
+    /// Throws Error if /dev/uhid does not exist or this user may not open it.
     explicit UhidWheel(Kind kind);
     ~UhidWheel();
     UhidWheel(const UhidWheel&) = delete;

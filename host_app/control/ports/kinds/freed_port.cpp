@@ -16,7 +16,7 @@ using namespace std::chrono_literals;
 
 constexpr int most_datagrams_a_look = 256;
 constexpr int most_camera_id = 255, least_angle_deg = 5, most_angle_deg = 115;
-/// Where a message does not say how far away its subject is.
+/// Focus distance in metres for messages that contain none.
 constexpr double usual_focus_m = 4.5;
 
 class FreedPort final : public ControlPort {
@@ -44,7 +44,7 @@ class FreedPort final : public ControlPort {
     }
 
   private:
-    /// A datagram may have several messages, one behind the other.
+    /// A datagram may contain several messages, one after another.
     void take(std::span<const std::byte> bytes) {
         const bool are_several = !bytes.empty() && bytes.size() % freed_bytes == 0;
         if (!are_several) return take_message(bytes);
@@ -82,7 +82,7 @@ class FreedPort final : public ControlPort {
         ++stats_.obeyed;
     }
 
-    /// Says once of a camera what its lens is taken to be: the protocol does not say it.
+    /// Logs once for each camera which lens is assumed, since the protocol does not transmit it.
     void tell_first(const FreedCamera& message, double angle_rad) {
         if (!told_cameras_.insert(message.id).second) return;
         const double angle_deg = angle_rad * 180 / std::numbers::pi;

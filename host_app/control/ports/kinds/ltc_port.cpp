@@ -20,21 +20,21 @@ namespace vantage {
 namespace {
 
 constexpr std::string_view device_scheme = "alsa:";
-/// Of a device, 10 ms each.
+/// Largest number of waiting blocks of a device, 10 ms each.
 constexpr std::size_t most_waiting_blocks = 200;
 
-/// Sound is silent below this level.
+/// Peak level below which sound counts as silence.
 constexpr float silence_peak = 0.001F;
-/// How long sound without a valid code is heard before that is reported.
+/// Time for which sound without a valid code is tolerated before it is reported.
 constexpr double patience_s = 5;
 
-/// Samples of one or more channels, interleaved.
+/// Block of interleaved samples of one or more channels.
 struct HeardBlock {
     std::int64_t first = 0;
     std::vector<float> samples;
 };
 
-/// Sound whose samples have times.
+/// Interface of a sound source whose samples have times.
 class HeardSound {
   public:
     virtual ~HeardSound() = default;
@@ -43,7 +43,7 @@ class HeardSound {
     virtual int rate_hz() const { return sound_rate_hz; }
     virtual TaiTime time_of(std::int64_t sample) const { return time_of_sound(sample); }
     virtual std::uint64_t dropped() const { return 0; }
-    /// Whether a file has ended.
+    /// True at the end of a file.
     virtual bool is_over() const { return false; }
 };
 
@@ -67,8 +67,8 @@ class HeardDevice final : public HeardSound {
     std::shared_ptr<SoundSource> source_;
 };
 
-/// A file as if it were played from now on, with its own channels and its own rate: a resampler
-/// would round the edges that a code consists of.
+/// Plays a file in real time from now on, with its own channels and its own rate: a resampler would
+/// round the edges that carry the code.
 class HeardFile final : public HeardSound {
   public:
     explicit HeardFile(const OutputUrl& url)
@@ -101,7 +101,7 @@ class HeardFile final : public HeardSound {
     bool is_over_ = false;
 };
 
-/// Reads `channels=2` for a file: the only channel that is heard. Empty: all are.
+/// Channel of the option `channels=2` that is decoded; empty: all channels.
 std::optional<std::size_t> channel_of(const OutputUrl& url, std::size_t channels) {
     if (!url.option("channels")) return std::nullopt;
     constexpr int most_channels = 256;
@@ -138,13 +138,13 @@ class LtcPort final : public ControlPort {
     }
 
   private:
-    /// One channel and what was heard in it.
+    /// One channel and the result of its decoder.
     struct Channel {
         Channel(std::size_t at, int rate_hz) : place(at), reader(rate_hz) {}
         std::size_t place;
         LtcReader reader;
         std::uint64_t malformed = 0;
-        float peak = 0;  ///< since the last code
+        float peak = 0;  ///< peak level since the last code
     };
 
     void hear(const HeardBlock& sound) {
@@ -162,7 +162,7 @@ class LtcPort final : public ControlPort {
             const std::uint64_t malformed =
                 channel.reader.malformed() -
                 std::exchange(channel.malformed, channel.reader.malformed());
-            // Other channels hold other sound.
+            // A code was found in another channel; this one holds other sound.
             if (heard_ && *heard_ != channel.place) continue;
             for (const LtcReading& reading : readings) take(reading);
             if (malformed == 0) continue;
@@ -206,7 +206,7 @@ class LtcPort final : public ControlPort {
         const SmpteCount count = count_of(reading);
         const double rate_hz =
             count.is_drop_frame ? 30000.0 / 1001 : static_cast<double>(count.numbers_a_second);
-        // In its middle, since where a frame begins is heard to a few samples.
+        // The middle of the frame is used, since its start is known to a few samples only.
         const TaiTime middle = sound_->time_of(reading.first) + from_s(0.5 / rate_hz);
         const std::optional<SmpteCode> house =
             SmpteCode::parse(TimecodeClock(rate_hz).at(middle, read_kernel_clock().tai_offset_s));
@@ -216,7 +216,7 @@ class LtcPort final : public ControlPort {
         stats_.told = reading.code.text() + ", " + words_of_ltc(ahead);
         tell(reading, ahead);
     }
-    /// Logs a difference from the house's code that is stable and new.
+    /// Logs a difference from the house time code that is stable and new.
     void tell(const LtcReading& reading, std::int64_t ahead) {
         constexpr int stays = 25;
         same_ = ahead == last_ahead_ ? same_ + 1 : 0;
@@ -230,7 +230,7 @@ class LtcPort final : public ControlPort {
     ControlBench bench_;
     std::unique_ptr<HeardSound> sound_;
     std::vector<Channel> channels_;
-    std::optional<std::size_t> heard_;  ///< the channel with the code
+    std::optional<std::size_t> heard_;  ///< channel that carries the code
     double without_code_s_ = 0;
     bool told_end_ = false;
     int same_ = 0;

@@ -60,7 +60,7 @@ class MidiPort final : public ControlPort {
                 (void)surface_at(event.place);
                 break;
             case Kind::unplugged:
-                // Its springs cannot centre its sticks any more.
+                // The springs of a lost surface cannot centre its sticks any more.
                 if (surfaces_.erase(event.place) > 0)
                     log_info("{}: the surface at {}:{} is gone", name_, event.place.client,
                              event.place.port);
@@ -96,7 +96,7 @@ class MidiPort final : public ControlPort {
         }
     }
 
-    /// Null: it is one too many.
+    /// Returns null if there are too many surfaces.
     MidiSurface* surface_at(const MidiSequencer::Place& place) {
         const auto found = surfaces_.find(place);
         if (found != surfaces_.end()) return &found->second;

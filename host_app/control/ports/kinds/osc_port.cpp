@@ -23,10 +23,10 @@ constexpr std::size_t most_subscribers = 8;
 constexpr std::chrono::seconds subscription{60}, all_again{2};
 constexpr std::chrono::milliseconds lamp_period{40};
 
-/// Who is told the lamps, and until when.
+/// Address that receives the lamps, and the end of its subscription.
 struct Listener {
     SocketAddress address;
-    std::optional<MonotonicTime> until;  ///< nothing: as long as the port is open
+    std::optional<MonotonicTime> until;  ///< empty: until the port closes
 };
 
 class OscPort final : public ControlPort {
@@ -50,7 +50,8 @@ class OscPort final : public ControlPort {
             take(*datagram);
             datagram = socket_.receive(0ms);
         }
-        // Of a flood the kernel leaves out the rest, so that it takes no processor from pictures.
+        // In a flood the port pauses, so that the kernel drops the rest and rendering keeps the
+        // processor.
         if (looked_at == most_datagrams_a_look) std::this_thread::sleep_for(10ms);
         stats_.dropped += socket_.overrun() - seen_overrun_;
         seen_overrun_ = socket_.overrun();
@@ -81,7 +82,7 @@ class OscPort final : public ControlPort {
             return;
         }
         std::vector<double> numbers = message.numbers;
-        // "/vantage/shot/3" is a button of its own on a surface.
+        // "/vantage/shot/3" is a separate button on a control surface.
         if (const std::size_t slash = name.find('/'); slash != std::string::npos) {
             int number = 0;
             const char* last = name.data() + name.size();
@@ -99,7 +100,7 @@ class OscPort final : public ControlPort {
         }
         const bool has_words = command->argument == CommandArgument::words;
         const std::size_t needed = command->argument == CommandArgument::none || has_words ? 0 : 1;
-        // A button of a surface sends 1 when it is pressed and 0 when it is let go.
+        // A button of a control surface sends 1 when pressed and 0 when released.
         const bool has_press = numbers.size() == needed + 1 && !has_words &&
                                command->argument != CommandArgument::steps;
         const bool is_let_go = has_press && numbers.back() == 0;
@@ -143,7 +144,7 @@ class OscPort final : public ControlPort {
         is_all_due_ = true;
     }
 
-    /// Lamps that changed; all of them every other second, since a datagram may be lost.
+    /// Sends lamps that changed, and all of them every other second, since a datagram may be lost.
     void tell(MonotonicTime now) {
         if (listeners_.empty() || (now - told_ < lamp_period && !is_all_due_)) return;
         told_ = now;

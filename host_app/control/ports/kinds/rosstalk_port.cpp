@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_peers = 8;
 constexpr int usual_port = 7788, most_lines_a_look = 256;
 
-/// The protocol has a port of its own.
+/// Fills in the protocol's default port.
 OutputUrl with_port(OutputUrl url) {
     const bool has_port = url.place.rfind(':') != std::string::npos && !url.place.ends_with(']');
     if (!has_port) url.place += fmt::format(":{}", usual_port);
@@ -59,7 +59,7 @@ class RossTalkPort final : public ControlPort {
         }
         stats_.dropped += listener_.turned_away() - seen_turned_away_;
         seen_turned_away_ = listener_.turned_away();
-        // A flood takes no processor from pictures: TCP holds it up.
+        // In a flood the port pauses: TCP slows the sender down, and rendering keeps the processor.
         if (lines >= most_lines_a_look) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
 

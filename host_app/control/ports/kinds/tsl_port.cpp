@@ -16,8 +16,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_peers = 8;
 constexpr int most_messages_a_look = 256, most_address = 65534, most_tally = 4;
-/// After a flood: it takes no processor from pictures, TCP holds it up, and of datagrams the kernel
-/// leaves out the rest.
+/// Pause in a flood: TCP slows the sender down, the kernel drops datagrams, and rendering keeps the
+/// processor.
 constexpr auto flood_pause = 10ms;
 
 class TslPort : public ControlPort {
@@ -36,7 +36,8 @@ class TslPort : public ControlPort {
                          fmt::format("{} bytes that are no TSL UMD 3.1, 4.0 or 5.0", bytes.size()));
             return;
         }
-        // Mixers tell every display about every other; that is no fault.
+        // Vision mixers send the state of every display to every display; messages for others are
+        // valid.
         ++stats_.obeyed;
         const auto is_on = [](const TslDisplay& display, int tally) {
             return (display.tallies >> (tally - 1) & 1) != 0;
@@ -106,7 +107,7 @@ class TslConnections final : public TslPort {
 
   private:
     TcpListener listener_;
-    std::map<int, TslStream> streams_;  ///< by peer
+    std::map<int, TslStream> streams_;  ///< by connection
     std::uint64_t seen_turned_away_ = 0;
 };
 

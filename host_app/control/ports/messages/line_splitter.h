@@ -6,12 +6,12 @@
 
 namespace vantage {
 
-/// Takes the bytes of a connection apart into lines. A line ends with CR LF, LF or CR; empty lines
-/// are left out.
+/// Splits the bytes of a connection into lines. A line ends with CR LF, LF or CR; empty lines are
+/// skipped.
 class LineSplitter {
   public:
     void take(std::string_view bytes) { waiting_ += bytes; }
-    /// The next whole line without its end; nothing: none has come yet.
+    /// Next complete line without its end; empty if there is none yet.
     std::optional<std::string> next() {
         for (;;) {
             const std::size_t end = waiting_.find_first_of("\r\n");
@@ -21,9 +21,10 @@ class LineSplitter {
             if (!line.empty()) return line;
         }
     }
-    /// What came after the last end of a line.
+    /// Bytes after the last end of a line.
     const std::string& rest() const { return waiting_; }
-    /// More came without an end than a line has; nothing of it is worth waiting for.
+    /// True if more bytes than the longest line arrived without an end; the connection should be
+    /// closed.
     bool is_flooded() const { return waiting_.size() > most_line_bytes; }
 
     static constexpr std::size_t most_line_bytes = 128;

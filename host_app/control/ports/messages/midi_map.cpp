@@ -11,7 +11,7 @@ namespace {
 
 constexpr int midi_map_version = 1;
 constexpr std::size_t most_midi_map_bytes = 1 << 20;
-/// Controllers 0 to 31 have their lower seven bits at 32 to 63.
+/// Last controller with 14 bits: the low seven bits of controllers 0 to 31 are in 32 to 63.
 constexpr int most_fine_controller = 31;
 
 MidiControl read_midi_control(const TomlTable& table, const std::string& name) {
@@ -23,7 +23,7 @@ MidiControl read_midi_control(const TomlTable& table, const std::string& name) {
     return *control;
 }
 
-/// Refuses the same control under two spellings, of which one would be lost.
+/// Adds a control. Throws Error if it is already there in another spelling.
 template <class Value>
 void keep_midi(std::map<MidiControl, Value>& all, const MidiControl& control, Value value,
                const TomlTable& table, const std::string& name) {

@@ -14,39 +14,40 @@
 
 namespace vantage {
 
-/// How a control tells where it is.
+/// Encoding of a MIDI control's movement.
 enum class MidiTravel {
-    fader,          ///< stays where it is put: what it is moved by counts as steps
-    stick,          ///< springs back to its middle: the further out, the faster
-    twos,           ///< an encoder: 1 to 63 steps on, 127 to 65 back (two's complement)
-    binary_offset,  ///< 65 to 127 on, 63 to 0 back
-    sign_bit,       ///< 1 to 63 on, 65 to 127 back
-    ends,           ///< 127 one step on, 0 one back
+    fader,          ///< keeps its position; a movement counts as steps
+    stick,          ///< springs back to its centre; its distance from there sets the speed
+    twos,           ///< encoder: 1 to 63 steps up, 127 to 65 steps down (two's complement)
+    binary_offset,  ///< encoder: 65 to 127 up, 63 to 0 down
+    sign_bit,       ///< encoder: 1 to 63 up, 65 to 127 down
+    ends,           ///< encoder: 127 one step up, 0 one step down
 };
 
 struct MidiAxisMap {
     AxisMap map;
     MidiTravel travel = MidiTravel::fader;
-    bool is_fine = false;       ///< 14 bits: the controller 32 above has the lower seven
-    double travel_steps = 100;  ///< of a fader, from end to end
+    bool is_fine = false;       ///< 14 bits: the low seven are in the controller 32 above
+    double travel_steps = 100;  ///< for a fader, from end to end
 };
 
-/// What lights a pad: a lamp that is on or off.
+/// Lamp of the session that lights a pad when it is on.
 struct MidiLampMap {
     MidiControl control;
     const Lamp* lamp = nullptr;
     int on = most_midi_value, off = 0;
 };
 
-/// What the controls of a surface do, as a jog wheel's file says it of a wheel.
+/// Map of a MIDI surface's controls to commands, like a jog wheel's profile.
 class MidiMap {
   public:
-    /// Reads a file like hw_config/midi/standard.toml, or that one itself where there is no path.
-    /// Throws Error with file and line for whatever does not fit.
+    /// Loads a file like hw_config/midi/standard.toml, or the built-in copy of it if the path is
+    /// empty. Throws Error with file and line.
     static MidiMap load(const std::filesystem::path& path);
     static MidiMap read(std::string_view text, const std::filesystem::path& name);
 
-    /// Of the message's channel before any. Null: it is mapped to nothing.
+    /// Button for the message; a map entry for its channel goes before one for any channel. Null if
+    /// it is not mapped.
     const ButtonMap* find_button(const MidiMessage& message) const;
     const MidiAxisMap* find_axis(const MidiMessage& message) const;
     const std::vector<MidiLampMap>& lamps() const { return lamps_; }
@@ -57,7 +58,7 @@ class MidiMap {
     std::vector<MidiLampMap> lamps_;
 };
 
-/// The files of hw_config/midi as they were built in.
+/// Built-in copies of the files in hw_config/midi.
 std::span<const EmbeddedText> embedded_midi();
 
 }  // namespace vantage

@@ -7,7 +7,8 @@
 namespace vantage {
 namespace {
 
-/// Takes "36" off the front of "36 ch 2". Nothing: there is no number within these limits.
+/// Removes a number from the start of the text, "36" from "36 ch 2". Empty if there is no number
+/// within the limits.
 std::optional<int> take_midi_number(std::string_view& text, int least, int most) {
     int number = 0;
     const char* last = text.data() + text.size();

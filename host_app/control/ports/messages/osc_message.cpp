@@ -18,7 +18,7 @@ constexpr std::size_t most_messages = 256, most_address_bytes = 128;
 struct FreeMessage {
     void operator()(lo_message message) const { lo_message_free(message); }
 };
-/// Plain `void` in liblo 0.31, a type of its own in 0.32.
+/// lo_message is a pointer to void in liblo 0.31, and to a type of its own in 0.32.
 using Message = std::unique_ptr<std::remove_pointer_t<lo_message>, FreeMessage>;
 
 std::uint32_t big_endian(std::span<const std::byte> bytes) {
@@ -28,7 +28,7 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
     return value;
 }
 
-/// Numbers of 64 bits stand where OSC puts them, at four bytes.
+/// Reads a number of 64 bits, which OSC aligns to four bytes only.
 template <class Number>
 Number number_at(const void* argument) {
     Number number{};
@@ -37,7 +37,7 @@ Number number_at(const void* argument) {
 }
 
 bool decode_message(std::span<const std::byte> bytes, std::vector<OscMessage>& into) {
-    // liblo wants it writable, and turns the numbers in place.
+    // liblo requires writable memory and swaps the bytes of numbers in place.
     std::vector<std::byte> copy(bytes.begin(), bytes.end());
     if (copy.empty() || copy.front() != std::byte{'/'} ||
         std::find(copy.begin(), copy.end(), std::byte{0}) == copy.end())
@@ -72,7 +72,7 @@ bool decode_message(std::span<const std::byte> bytes, std::vector<OscMessage>& i
                 message.numbers.push_back(0);
                 break;
             case LO_STRING:
-                // It begins at a multiple of four bytes, and not at one of eight.
+                // Arguments are aligned to four bytes, not to eight.
                 message.words.emplace_back(reinterpret_cast<const char*>(arguments[i]));
                 break;
             default:

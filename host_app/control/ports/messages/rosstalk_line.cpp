@@ -5,7 +5,7 @@
 namespace vantage {
 namespace {
 
-/// Digits alone, from 0 on.
+/// Parses a number of digits only, at least 0.
 std::optional<int> number_of(std::string_view text) {
     constexpr int most = 99'999;
     int number = 0;

@@ -6,15 +6,15 @@
 
 namespace vantage {
 
-/// A RossTalk command of those that say what is to be done and not how: GPI n, XPT D:S.
+/// RossTalk command that Vantage supports: GPI n, XPT D:S.
 struct RossTalkOrder {
     enum class Kind { gpi, xpt } kind = Kind::gpi;
-    int first = 0, second = 0;  ///< the number; destination and source
+    int first = 0, second = 0;  ///< the number, or destination and source
     bool operator==(const RossTalkOrder&) const = default;
 };
 
-/// What a line says, without its end. Nothing: it is no such command (case counts), and `is_known`
-/// whether it begins as one does.
+/// Result of parsing a line without its end. `order` is empty if the line is not such a command;
+/// commands are case-sensitive. `is_known` is true if the line begins like one.
 struct RossTalkLine {
     std::optional<RossTalkOrder> order;
     bool is_known = false;

@@ -11,15 +11,15 @@
 
 namespace vantage {
 
-/// What the commands of a RossTalk device do, as a jog wheel's file says it of buttons.
+/// Map of RossTalk commands to commands of Vantage, like the buttons in a jog wheel's profile.
 class RossTalkMap {
   public:
-    /// Reads a file like hw_config/rosstalk/standard.toml, or that one itself where there is no
-    /// path. Throws Error with file and line for whatever does not fit.
+    /// Loads a file like hw_config/rosstalk/standard.toml, or the built-in copy of it if the path
+    /// is empty. Throws Error with file and line.
     static RossTalkMap load(const std::filesystem::path& path);
     static RossTalkMap read(std::string_view text, const std::filesystem::path& name);
 
-    /// Null: it is mapped to nothing.
+    /// Null if the command is not mapped.
     const CommandCall* find(const RossTalkOrder& order) const;
 
   private:
@@ -27,7 +27,7 @@ class RossTalkMap {
     std::map<std::pair<int, int>, CommandCall> xpt_;
 };
 
-/// The files of hw_config/rosstalk as they were built in.
+/// Built-in copies of the files in hw_config/rosstalk.
 std::span<const EmbeddedText> embedded_rosstalk();
 
 }  // namespace vantage

@@ -26,20 +26,20 @@ std::optional<std::vector<TslDisplay>> decode_v3(std::span<const std::byte> byte
     if (head < v3_first_address || head > v3_first_address + v3_most_address ||
         (control & ~known_bits) != 0)
         return std::nullopt;
-    // The text that follows is shown nowhere here, and some senders pad it with NUL.
+    // The text that follows is not used, and some senders pad it with NUL.
     return std::vector{TslDisplay{static_cast<int>(head - v3_first_address), control & tally_bits}};
 }
 
 std::optional<std::vector<TslDisplay>> decode_v5(std::span<const std::byte> bytes) {
-    // Bytes that follow these two, version, flags, screen; then displays: index, control, length of
-    // the text and the text.
+    // Header after these two bytes: version, flags, screen. Then displays: index, control, length
+    // of the text, and the text.
     constexpr std::size_t head_bytes = 6, display_head_bytes = 6;
     constexpr unsigned screen_control = 2, control_data = 0x8000;
     if (bytes.size() < head_bytes || bytes.size() > most_tsl_bytes ||
         word_at(bytes, 0) != bytes.size() - 2 || byte_at(bytes, 2) != 0)
         return std::nullopt;
     std::vector<TslDisplay> displays;
-    // Of screens' own control the standard says nothing yet.
+    // The standard does not yet define control data of screens.
     if ((byte_at(bytes, 3) & screen_control) != 0) return displays;
     bytes = bytes.subspan(head_bytes);
     while (!bytes.empty()) {
@@ -48,7 +48,7 @@ std::optional<std::vector<TslDisplay>> decode_v5(std::span<const std::byte> byte
         const std::size_t text_bytes = word_at(bytes, 4);
         if ((control & control_data) != 0) return std::nullopt;
         if (text_bytes > bytes.size() - display_head_bytes) return std::nullopt;
-        // Right, text and left lamp, two bits each: 0 off, 1 red, 2 green, 3 both.
+        // Right lamp, text and left lamp, two bits each: 0 off, 1 red, 2 green, 3 both.
         const unsigned lamps = (control | control >> 2 | control >> 4) & 3;
         displays.push_back({static_cast<int>(word_at(bytes, 0)), lamps});
         bytes = bytes.subspan(display_head_bytes + text_bytes);
@@ -56,7 +56,8 @@ std::optional<std::vector<TslDisplay>> decode_v5(std::span<const std::byte> byte
     return displays;
 }
 
-/// Of version 4.0, which follows the 18 bytes of 3.1: checksum, count, and so many more bytes.
+/// Number of extra bytes of a version 4.0 message, which follow the 18 bytes of 3.1: checksum,
+/// count, and that many bytes.
 std::size_t v4_extra_bytes(std::span<const std::byte> bytes) {
     constexpr std::size_t extra_head_bytes = 2;
     if (bytes.size() < v3_bytes + extra_head_bytes) return 0;
@@ -67,7 +68,7 @@ std::size_t v4_extra_bytes(std::span<const std::byte> bytes) {
     return v3_bytes + extra <= bytes.size() ? extra : 0;
 }
 
-/// The message that stands first; takes it away. Nothing: none does.
+/// Decodes the first message and removes it from the bytes. Empty if there is none.
 std::optional<std::vector<TslDisplay>> take_message(std::span<const std::byte>& bytes) {
     const bool may_be_v3 = bytes.size() >= v3_bytes && byte_at(bytes, 0) >= v3_first_address;
     const std::size_t v5_bytes = bytes.size() < 3 ? 0 : word_at(bytes, 0) + std::size_t{2};
@@ -83,7 +84,7 @@ std::optional<std::vector<TslDisplay>> take_message(std::span<const std::byte>& 
     return displays;
 }
 
-/// As version 5.0 is wrapped for TCP, which some send over UDP too.
+/// Decodes version 5.0 in its TCP framing, which some senders also use over UDP.
 std::optional<std::vector<TslDisplay>> decode_wrapped(std::span<const std::byte> bytes) {
     TslStream stream;
     std::vector<TslDisplay> all;

@@ -58,7 +58,7 @@ void TslStream::append(char byte, std::vector<std::string>& whole) {
     }
 }
 
-/// A message without its wrapping: what cannot be the head of one is none.
+/// Appends a byte of a message without framing. Bytes that cannot be its header are dropped.
 void TslStream::append_bare(char byte, std::vector<std::string>& whole) {
     constexpr std::size_t bare_v3_bytes = 18, bare_v3_first = 0x80, reserved_bits = 0xc0,
                           count_bytes = 2;

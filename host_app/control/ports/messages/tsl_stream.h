@@ -7,18 +7,19 @@
 
 namespace vantage {
 
-/// Takes the bytes of a connection apart into messages of TSL UMD 5.0, as it wraps them for TCP:
-/// DLE STX (0xFE 0x02) begins one, a DLE within it is sent twice, and its first two bytes say where
-/// it ends. Some senders leave the wrapping out, or send version 3.1: both are taken.
+/// Splits the bytes of a TCP connection into messages of TSL UMD 5.0. DLE STX (0xFE 0x02) begins a
+/// message, a DLE within it is doubled, and its first two bytes contain its length. Messages
+/// without this framing and messages of version 3.1, which some senders use, are accepted too.
 class TslStream {
   public:
-    /// The messages that these bytes complete, for decode_tsl().
+    /// Returns the messages that these bytes complete, for decode_tsl().
     std::vector<std::string> take(std::string_view bytes);
-    /// Part of a message waits for the rest of it.
+    /// True while a part of a message waits for the rest.
     bool has_rest() const {
         return is_after_dle_ || place_ == Place::inside || place_ == Place::bare;
     }
-    /// Runs of bytes so far that were no message: before one, broken off, or too long.
+    /// Number of byte runs that were not part of a valid message, were broken off, or were too
+    /// long.
     std::uint64_t strays() const { return strays_; }
 
   private:
