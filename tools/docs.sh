@@ -9,7 +9,7 @@ if ! command -v python3 >/dev/null; then
   echo "SKIPPED: documents: there is no python3 (package python3)"
   exit 0
 fi
-tools/check_prose.py | tail -n 1
+tools/check_prose.py || exit 1
 tools/check_links.py || exit 1
 if ! command -v mkdocs >/dev/null || ! mkdocs build --help | grep -q material; then
   echo "SKIPPED: the site: MkDocs or its Material theme is missing (packages mkdocs and mkdocs-material)"

@@ -130,7 +130,7 @@ void run(int argc, char** argv) {
             std::cerr << control << ", every " << lose_every << "\n";
         }
     text << fmt::format(
-        "One rig of {}x{}, 25 frames of {:.0f} kB a second ({:.0f} Mbit/s), {:g} s each: frames "
+        "One rig of {}x{}, 25 frames of {:.0f} kB a second ({:.0f} Mbit/s), {:g} s each. Frames "
         "that came of those filmed, and from exposure to decoded ms, median and 99 %.\n\n"
         "| congestion control | packets lost |",
         size.width, size.height, static_cast<double>(frame_bytes) / 1e3,

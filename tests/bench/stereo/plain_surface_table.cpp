@@ -79,7 +79,7 @@ void print_plain_surface_table(const ShaderLibrary& library,
                                const std::vector<StereoScene>& scenes) {
     fmt::print(
         "Plain surfaces: bad-2.0 in percent where the gradient's mean over 9x9 pixels is below {} "
-        "grey levels a pixel, of what both cameras see, and how much of that is plain\n\n"
+        "grey levels a pixel. It is of what both cameras see; then how much of that is plain\n\n"
         "| scene | plain, % | HH4 | quality | balanced | fast |\n"
         "| --- | --- | --- | --- | --- | --- |\n",
         most_plain_gradient);

@@ -62,7 +62,7 @@ ColourImage comparison_row(const BackgroundResults& results) {
 void print_stage_tables(const ShaderLibrary& library, const std::filesystem::path& picture) {
     fmt::print(
         "The virtual stage, {}x{}x{}, sensor noise of one grey level: sub-pixel error, RMS in px, "
-        "on slanted textured planes (of the pixels less than one pixel off), and the area under "
+        "on slanted textured planes (of the pixels less than one pixel off). Then the area under "
         "the sparsification curve of confidence against chance (bad-2.0, all pixels)\n\n"
         "| set | HH4, px | quality, px | balanced, px | fast, px | quality / chance | balanced / "
         "chance | fast / chance |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",

@@ -150,7 +150,7 @@ void print_still_film_table(const ShaderLibrary& library) {
     fmt::print(
         "Films of the virtual stage, {} frames a second of {}x{}x{}, a second after their start: "
         "sensor noise of {} grey levels, exposure that drifts by {} %, performers who move. Each "
-        "frame by itself, and denoised as the daemon does it; of the pixels that stand still, in "
+        "frame by itself, and denoised as the daemon does it. Of the pixels that stand still, in "
         "percent: those that differ by more than a pixel of disparity "
         "from one frame to the next / those that do within {} frames\n\n"
         "| scene | HH4 | quality | denoised | balanced | denoised | fast | denoised |\n"

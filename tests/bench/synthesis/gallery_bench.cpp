@@ -212,9 +212,11 @@ int run(int argc, char** argv) {
          << "PSNR and SSIM over all pixels, and coverage; on the stage also the mean error, of "
             "255, of "
             "what is covered within 2 px of depth edges. The stage at 320x240: four rigs so far "
-            "apart, exact depth, the view midway between the middle two, "
+            "apart, exact depth, and the view midway between the middle two. There are "
          << instants_before
-         << " instants before it, half a second apart. ms: an instant and a picture of the stage, "
+         << " instants before it, half a second apart. The column ms has an instant and a picture "
+            "of "
+            "the stage, "
             "20 degrees.\n\n| system |";
     for (const Case& one : cases) text << " " << one.name << " |";
     text << " ms |\n| --- |";

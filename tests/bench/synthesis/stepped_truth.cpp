@@ -274,7 +274,7 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
 
 std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& wanted) {
     std::string text = fmt::format(
-        "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}; {:g} "
+        "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}. {:g} "
         "instants a second, prepared at level {} and rendered at level {}; three cameras between "
         "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
         "| synthesiser | scene | PSNR dB | of the background | of performers | SSIM | outlier "
