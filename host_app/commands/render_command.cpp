@@ -17,6 +17,7 @@
 #include "host_app/synthesis/source_map.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
+#include "host_app/view_sets/immersive_metrics.h"
 #include "host_app/view_sets/view_set.h"
 
 namespace vantage {
@@ -144,6 +145,9 @@ void render(const RenderOptions& options) {
         result["psnr_db"] = psnr_db(picture, truth);
         result["psnr_covered_db"] = psnr_db(picture, truth, covered_mask(picture));
         result["ssim"] = ssim(picture, truth);
+        const ImmersiveMetrics immersive = immersive_metrics(picture, truth);
+        result["iv_psnr_db"] = immersive.iv_psnr_db;
+        result["iv_ssim"] = immersive.iv_ssim;
     }
     result["coverage"] = coverage(picture);
     result["remembered"] = remembered(picture);
@@ -185,7 +189,8 @@ CommandEntry render_command_entry() {
         auto* target = command->add_option_group("Camera", "The view to render");
         auto* hold_out = target->add_option(
             "--hold-out", options->hold_out,
-            "Remove this view, render it from the others and compare: psnr_db, ssim");
+            "Remove this view, render it from the others and compare: psnr_db, ssim, "
+            "iv_psnr_db, iv_ssim");
         target->add_option("--pose", options->pose, "Render the camera of this pose file");
         target->require_option(1);
         options->stereoscopic

@@ -16,6 +16,7 @@
 #include "common/image/image_file.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
+#include "host_app/view_sets/immersive_metrics.h"
 #include "tests/bench/support/cpu_time.h"
 #include "tests/bench/synthesis/fidelity.h"
 
@@ -100,6 +101,7 @@ struct Measured {
     RegionalError regions;
     Flicker set, performers;
     double edge_error = 0, set_psnr_db = 0, foreground_psnr_db = 0;
+    ImmersiveMetrics whole, foreground;  ///< sums
     int edge_pictures = 0;
     std::vector<double> take_ms, prepare_ms, render_ms;
     std::map<std::size_t, std::pair<ColourImage, Truth>> before;  ///< by camera
@@ -109,6 +111,11 @@ double median(std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + static_cast<long>(values.size() / 2),
                      values.end());
     return values[values.size() / 2];
+}
+
+void add(ImmersiveMetrics& sum, const ImmersiveMetrics& one) {
+    sum.iv_psnr_db += one.iv_psnr_db;
+    sum.iv_ssim += one.iv_ssim;
 }
 
 void write_beside(const std::string& folder, const std::string& name, const ColourImage& picture,
@@ -228,10 +235,13 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
                 const Truth& truth = truths[c];
                 measured.fidelity.add(picture, truth.colour);
                 measured.regions.add(picture, truth);
+                add(measured.whole, immersive_metrics(picture, truth.colour));
                 if (cv::countNonZero(truth.edges) > 0) {
                     measured.set_psnr_db += psnr_db(picture, truth.colour, ~truth.performers);
                     measured.foreground_psnr_db += psnr_db(picture, truth.colour, truth.performers);
                     measured.edge_error += mean_error(picture, truth.colour, truth.edges);
+                    add(measured.foreground,
+                        immersive_metrics(picture, truth.colour, truth.performers));
                     ++measured.edge_pictures;
                 }
                 if (const auto found = measured.before.find(c); found != measured.before.end()) {
@@ -255,12 +265,16 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
     for (std::size_t r = 0; r < runners.size(); ++r) {
         const Measured& m = runners[r].measured;
         text += fmt::format(
-            "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} % | {:.1f} | {:.2f} | {:.2f} |",
+            "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} % | {:.1f} | {:.2f} | {:.2f} | "
+            "{:.2f} / {:.3f} | {:.2f} / {:.3f} |",
             wanted.synthesisers[r], set, m.fidelity.psnr_db(),
             m.set_psnr_db / std::max(m.edge_pictures, 1),
             m.foreground_psnr_db / std::max(m.edge_pictures, 1), m.fidelity.ssim(),
             100 * m.fidelity.outliers(), m.edge_error / std::max(m.edge_pictures, 1),
-            m.set.against_a_camera(), m.performers.against_a_camera());
+            m.set.against_a_camera(), m.performers.against_a_camera(),
+            m.whole.iv_psnr_db / m.fidelity.pictures(), m.whole.iv_ssim / m.fidelity.pictures(),
+            m.foreground.iv_psnr_db / std::max(m.edge_pictures, 1),
+            m.foreground.iv_ssim / std::max(m.edge_pictures, 1));
         if (wanted.with_times)
             text += fmt::format(" {:.0f} | {:.0f} | {:.0f} |", median(m.take_ms),
                                 median(m.prepare_ms), median(m.render_ms));
@@ -279,8 +293,9 @@ std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& want
         "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
         "| synthesiser | scene | PSNR dB | of the background | of performers | SSIM | outlier "
         "pixels | performers' "
-        "edges: mean error | flicker: background | performers |{}\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
+        "edges: mean error | flicker: background | performers | IV-PSNR dB / IV-SSIM | of "
+        "performers |{}\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
         wanted.with_exact_depth ? "exact" : "own", wanted.knows_set ? ", a set learnt before" : "",
         wanted.rate_hz, wanted.prepare_level, wanted.render_level, wanted.settling_s,
