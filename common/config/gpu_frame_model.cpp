@@ -6,15 +6,14 @@ namespace vantage {
 namespace {
 
 /// From docs/results/v3d.md: the bounds at 640x400x64, of which the passes over the cost volume
-/// grow with the disparities. `quality` on a Raspberry Pi 4 was not compiled: it is scaled from a
-/// Pi 5.
+/// grow with the disparities.
 constexpr GpuFrameModel models[] = {
     {"Raspberry Pi 5",
      "V3D 7.1",
-     {{"quality", 69.4, 4.032}, {"balanced", 43.0, 0.991}, {"fast", 38.3, 0.562}}},
+     {{"quality", 57.0, 3.806}, {"balanced", 35.4, 0.931}, {"fast", 29.2, 0.520}}},
     {"Raspberry Pi 4",
      "V3D 4.2",
-     {{"quality", 155.9, 9.394}, {"balanced", 96.6, 2.309}, {"fast", 92.0, 1.319}}},
+     {{"quality", 135.6, 7.630}, {"balanced", 85.3, 2.142}, {"fast", 76.3, 1.207}}},
 };
 
 }  // namespace
