@@ -262,8 +262,8 @@ def title(m):
 
 def document(models, mesa):
     out = ['# The shaders of a rig on a Raspberry Pi\'s compiler', '',
-           f'`tools/v3d.sh` writes this page. It runs the GPU work of a rig\'s frame on Mesa {mesa}\'s V3D driver and a pretended GPU:',
-           'rectification of NV12 or YUYV, matching of a stream, and the temporal filter. Programs are compiled for the real instruction set.',
+           f'`tools/v3d.sh` writes this page. It runs the GPU work of a rig\'s frame on Mesa {mesa}\'s V3D driver and a pretended GPU.',
+           'The work is rectification of NV12 or YUYV, matching of a stream, and the temporal filter. Programs are compiled for the real instruction set.',
            'Nothing executes, and no number here was measured on a Raspberry Pi.', '',
            '**Every time is a lower bound.** A pass takes at least the longer of two times. One is the time to issue the instructions that the',
            'compiler emitted, with the loops\' real trip counts, on the QPUs that the pass fills. The other is the time to move the bytes that',
