@@ -75,7 +75,8 @@ TEST(LinkMessage, RigMessageRoundTrips) {
                    0.125f,
                    "0.2.0",
                    900,
-                   "compiling shaders, 7 of 21"};
+                   "compiling shaders, 7 of 21",
+                   "keeps 2 of 4 files"};
     const RigMessage got = decode_rig_message(encode(sent));
     EXPECT_EQ(got.rig, sent.rig);
     EXPECT_EQ(got.session, sent.session);
