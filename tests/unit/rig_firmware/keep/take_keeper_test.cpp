@@ -124,9 +124,10 @@ TEST_F(TakeKeeperTest, LosesNoFrameWhenThePulsesGoBack) {
         ASSERT_TRUE(eventually([&] { return files().size() == 2; }));
     }
     std::set<std::uint64_t> pulses;
-    for (const auto& file : files())
-        for (const TakeReader::Frame& frame : TakeReader(file).frames(0))
-            pulses.insert(frame.pulse);
+    for (const auto& file : files()) {
+        const TakeReader take(file);
+        for (const TakeReader::Frame& frame : take.frames(0)) pulses.insert(frame.pulse);
+    }
     EXPECT_EQ(pulses.size(), 40u);
 }
 
