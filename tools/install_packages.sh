@@ -2,7 +2,8 @@
 # Installs the packages of packages.txt that are missing, and nothing else.
 #   tools/install_packages.sh run|test|bare
 # Works as root and with sudo. Where everything is there already it asks neither apt nor the network.
-# On Debian 12 it adds bookworm-backports from the mirror that this computer already uses.
+# On Debian 12 it adds bookworm-backports from the mirror that this computer already uses. A failure to get a newer version
+# of what is there already is reported and changes nothing.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -26,7 +27,7 @@ while read -r name status v; do
   [ "$status" = installed ] && version[$name]=$v
 done < <(dpkg-query -W -f '${Package} ${db:Status-Status} ${Version}\n')
 
-missing=() missing_backports=()
+missing=() missing_backports=() better=()
 while read -r name flags; do
   case "$name" in '' | '#'*) continue ;; esac
   case "$purpose: $flags " in
@@ -43,10 +44,32 @@ while read -r name flags; do
         continue
       fi
       ;;
+    *' newer '*)
+      if [ "$codename" = bookworm ]; then
+        case "$have" in *~bpo12* | *+rpt*) ;; *) better+=("$name") ;; esac
+      fi
+      ;;
   esac
   [ -n "$have" ] || missing+=("$name")
 done <packages.txt
-[ $((${#missing[@]} + ${#missing_backports[@]})) -gt 0 ] || exit 0
+
+# Those of $better that apt knows in backports.
+in_backports() {
+  local name
+  for name in "${better[@]}"; do
+    if apt-cache policy "$name" | grep '~bpo12' >/dev/null; then echo "$name"; fi
+  done
+}
+can_be_root() { [ "$(id -u)" -eq 0 ] || command -v sudo >/dev/null; }
+# Takes them from there where apt can.
+improve() {
+  local names
+  mapfile -t names < <(in_backports)
+  [ ${#names[@]} -gt 0 ] || return 0
+  echo "Vantage: taking a newer ${names[*]} from ${codename}-backports ..." >&2
+  apt_get install -t "${codename}-backports" "${names[@]}" ||
+    echo "Vantage: apt could not install ${names[*]} from ${codename}-backports; the installed version serves too." >&2
+}
 
 as_root() {
   if [ "$(id -u)" -eq 0 ]; then
@@ -64,6 +87,10 @@ apt_get() {
     -o Dpkg::Use-Pty=0 -o DPkg::Lock::Timeout=300 "$@"
 }
 
+if [ $((${#missing[@]} + ${#missing_backports[@]})) -eq 0 ]; then
+  ! can_be_root || improve
+  exit 0
+fi
 echo "Vantage: installing $((${#missing[@]} + ${#missing_backports[@]})) packages (and what they need) ..." >&2
 if [ ${#missing_backports[@]} -gt 0 ] && ! apt-cache policy | grep -q "${codename}-backports"; then
   mirror=$(apt-get indextargets --format '$(REPO_URI) $(CODENAME)' | awk -v c="$codename" '$2 == c {print $1; exit}')
@@ -83,3 +110,4 @@ fi
 apt_get update
 [ ${#missing[@]} -eq 0 ] || apt_get install "${missing[@]}"
 [ ${#missing_backports[@]} -eq 0 ] || apt_get install -t "${codename}-backports" "${missing_backports[@]}"
+improve

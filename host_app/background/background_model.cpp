@@ -31,6 +31,8 @@ constexpr double known_after_s = 0.5;
 constexpr int max_depth_mean = 128, max_colour_mean = 32;
 /// Width of the picture that look_at() reads back, px.
 constexpr int max_sampled_px = 128;
+/// Side of the blocks of matte_region.frag, as in foreground_blocks.glsl.
+constexpr int region_block_px = 4;
 
 float max_colour_instants(double dt_s) {
     return instants_of(colour_mean_s, dt_s, 4, max_colour_mean);
@@ -56,6 +58,10 @@ void BackgroundModel::learn(RigHistory& rig) {
     rig.matte().resize(picture);
     rig.matte_tiles().resize(TilePass::tiles_of(picture));
     hard_.resize(picture);
+    const cv::Size depth_size = rig.depth().size();
+    vote_.resize(depth_size);
+    enclosed_.resize({(depth_size.width + region_block_px - 1) / region_block_px,
+                      (depth_size.height + region_block_px - 1) / region_block_px});
     const bool has_before = background.is_drawn() && rig.has_colour_before();
     const Framebuffer& colour = rig.next_colour_target();
     const Texture& background_colour = has_before ? rig.colour_mean() : rig.fresh_colour();
@@ -74,13 +80,24 @@ void BackgroundModel::learn(RigHistory& rig) {
         set_depth_mean(compare);
     });
 
+    Program& votes = votes_.use();
+    votes.input("seen", background.seen());
+    votes_.draw(vote_.target());
+    vote_.generate_mipmaps();
+
     Program& tiles = tiles_.use();
+    tiles.input("votes", vote_.texture());
     tiles.input("seen", background.seen());
     tiles.set("tile_share", TilePass::share_of(picture));
     tiles.set("margin_share", Eigen::Vector2f(matte_reach_px * size.cwiseInverse()));
     tiles_.draw(rig.matte_tiles().target());
 
+    Program& regions = regions_.use();
+    regions.input("votes", vote_.texture());
+    regions_.draw(enclosed_.target(), rig.matte_tiles().texture(), picture);
+
     Program& matte = matte_.use();
+    matte.input("enclosed", enclosed_.texture());
     matte.input("picture", rig.fresh_colour());
     matte.input("seen", background.seen());
     matte_.draw(hard_.target(), rig.matte_tiles().texture(), picture);

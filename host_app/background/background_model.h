@@ -17,7 +17,9 @@ class BackgroundModel {
     explicit BackgroundModel(const ShaderLibrary& library)
         : compare_(library, "background_compare.frag"),
           compare_same_size_(library, "background_compare.frag", {{"SAME_SIZE", "1"}}),
+          votes_(library, "matte_votes.frag"),
           tiles_(library, "matte_tiles.frag"),
+          regions_(library, "matte_region.frag"),
           matte_(library, "matte.frag"),
           edges_(library, "matte_edges.frag"),
           learn_(library, "background_learn.frag"),
@@ -57,10 +59,12 @@ class BackgroundModel {
   private:
     TwoStagePass compare_;
     TwoStagePass compare_same_size_;  ///< if the depth map has the picture's size
-    FullscreenPass tiles_;
-    TilePass matte_, edges_;
+    FullscreenPass votes_, tiles_;
+    TilePass regions_, matte_, edges_;
     FullscreenPass learn_, colour_, known_;
     DrawnTexture sampled_{TextureFormat::rg8};
+    DrawnTexture vote_{TextureFormat::rg8, Filter::linear, true};
+    DrawnTexture enclosed_{TextureFormat::r8};
     DrawnTexture hard_{TextureFormat::r8, Filter::linear};
 };
 

@@ -41,6 +41,12 @@ void main() {
     float instants = !is_other     ? min(past.a + 1.0, most_instants)
                      : past.a > 1.0 ? 0.5 * past.a
                                     : max(past.a - 1.0, min_still);
+    // What may stand before the background is shown as it is, and replaces the background only if it stays: otherwise a
+    // plain performer would be its own background in the next instant.
+    if (is_kind(here.r, undecided) && instants > 1.0) {
+        mean = vec4(past.rgb, instants);
+        return;
+    }
     mean = vec4(mix(past.rgb, now.rgb, max(1.0 / (max(instants, 0.0) + 1.0), smoothstep(noise_change, motion_change, change))), instants);
     shown = vec4(mean.rgb, 1.0);
 }

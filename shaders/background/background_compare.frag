@@ -20,27 +20,44 @@ uniform sampler2D background_colour; // mean of the instants that showed the bac
 layout(location = 0) out vec4 seen;  // red: a kind of background_kinds.glsl; green: change of colour in a window; blue: of the pixel
 
 const float quiet = 0.012;           // change of the pixel's colour below which it shows the background
-const vec2 shade = vec2(0.45, 1.3);  // least and greatest factor that shadow and light apply to a colour
+const vec2 shade = vec2(0.25, 4.0);  // least and greatest factor that shadow and light apply to a colour
 const float tint = 0.025;            // change of colour that remains beside that factor, at most
+const float textured = 0.02;         // mean deviation within a window from which on its texture identifies a surface
+const vec2 same_texture = vec2(0.4, 0.8);  // relative deviation from it, up to and from which on it is the same or another
 const float uncovered_after = 3.0;   // instants, at most, after which a farther surface becomes the background
 
 vec3 now, known;  // colour and background colour of the pixel, later means of a window
+vec3 now_at[4], known_at[4];  // the same at the window's corners
 
 // Averages seventeen of five by five pixels: the middle and two by two at each corner.
 void average_window(vec2 uv) {
     vec2 texel = 1.0 / vec2(textureSize(picture, 0));
     for (int k = 0; k < 4; ++k) {
         vec2 corner = uv + 1.5 * texel * (2.0 * vec2(k & 1, k >> 1) - 1.0);
-        now += 4.0 * textureLod(picture, corner, 0.0).rgb;
-        known += 4.0 * textureLod(background_colour, corner, 0.0).rgb;
+        now_at[k] = textureLod(picture, corner, 0.0).rgb;
+        known_at[k] = textureLod(background_colour, corner, 0.0).rgb;
+        now += 4.0 * now_at[k];
+        known += 4.0 * known_at[k];
     }
     now /= 17.0;
     known /= 17.0;
 }
 
-bool is_shade() {
+// Whether light or shadow explains the change: 1 if so, -1 if the texture of the background is there, so that nothing else
+// can be, 0 if not.
+int look_at_shade() {
     float share = dot(now, known) / max(dot(known, known), 1e-4);
-    return share > shade.x && share < shade.y && largest(now - share * known) < tint;
+    if (share < shade.x || share > shade.y || largest(now - share * known) > tint * max(share, 1.0)) return 0;
+    vec3 mean_now = 0.25 * (now_at[0] + now_at[1] + now_at[2] + now_at[3]);
+    vec3 mean_known = 0.25 * (known_at[0] + known_at[1] + known_at[2] + known_at[3]);
+    float texture_size = 0.0, off = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        vec3 expected = share * (known_at[k] - mean_known);
+        texture_size += colour_difference(expected, vec3(0.0));
+        off += colour_difference(now_at[k] - mean_now, expected);
+    }
+    if (texture_size < 4.0 * textured) return 1;
+    return off < same_texture.x * texture_size ? -1 : off < same_texture.y * texture_size ? 1 : 0;
 }
 
 void main() {
@@ -73,7 +90,8 @@ void main() {
         bool is_believed = restless || state.r <= 0.0 || (goes_on ? state.a + 1.0 : 1.0) >= min(state.g, uncovered_after);
         float model_m = background_depth_m(at, state);
         bool is_before = (!is_same && z < state.r) || (z < model_m && !is_one_surface(z, model_m));
-        kind = is_same && is_shade()                ? lit_background
+        int shading = look_at_shade();
+        kind = shading < 0 || (is_same && shading > 0) ? lit_background
                : is_known && !restless && is_before ? before_background
                : z > 0.0 && !is_same                ? (is_believed ? new_background : uncovered)
                                                     : undecided;

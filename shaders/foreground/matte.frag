@@ -1,9 +1,10 @@
 // The hard matte: which pixels show the foreground. Pixels whose own comparison with the background is undecided follow
-// the neighbours of similar colour. Drawn only in tiles that may have foreground (see matte_tiles.frag).
+// the neighbours of similar colour and the region around them; holes in a region of foreground are closed. Drawn only in tiles that may have foreground (see matte_tiles.frag).
 #include "background_kinds.glsl"
 
 uniform sampler2D picture;  // this instant's image
 uniform sampler2D seen;     // from background_compare.frag
+uniform sampler2D enclosed; // from matte_region.frag
 
 layout(location = 0) out float performer;  // 0 or 1
 
@@ -14,6 +15,9 @@ const float like_set_here = 0.04; // difference below which those around decide
 const float least_around = 0.15;  // share of pixels before the set around one that is taken for one
 const float most_around = 0.8;    // share from which on a pixel that looks like the set is taken for one
 const float new_around = 0.4;     // and one that looks like a set which has just changed, among what looks like it
+const float region_say = 2.0;      // the region's weight, in neighbours of the same colour
+const float closed = 0.7;          // share of directions from which on the foreground encloses a changed pixel
+const float hole = 0.95;           // the same for a pixel that looks like the background
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), size = textureSize(picture, 0);
@@ -37,11 +41,15 @@ void main() {
             like_background += w * is_known;
         }
     if (is_kind(own, uncovered)) performer = 1.0;
-    if (before == 0.0 || performer > 0.0) return;
+    float region = textureLod(enclosed, uv, 0.0).r;
+    if ((before == 0.0 && region < 0.5) || performer > 0.0) return;
+    like_before += region_say * region;
+    like_background += region_say * (1.0 - region);
     float around = before / max(count, 1.0);
     bool is_foreground = is_kind(own, before_background) ? around > least_around && (seen_here.b > like_set_here || like_before > like_background)
                         : is_kind(own, undecided)   ? like_before > like_background
                         : is_kind(own, new_background)  ? around > new_around && like_before > like_background
-                                                 : around > most_around;
+                        : is_kind(own, lit_background)  ? around > most_around || region >= closed
+                                                        : around > most_around || region >= hole;
     performer = is_foreground ? 1.0 : 0.0;
 }

@@ -42,6 +42,14 @@ struct Seen {
     float first;          // how much of it the first two see, 0..1
 };
 
+bool is_inside(int i, vec2 pixel, float z) {
+    vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
+    vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
+    return q.z > 0.0 && all(greaterThan(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
+}
+
+float own_first = 0.0, own_next = 0.0;  // of the first two rigs
+
 void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout Seen seen) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
     if (q.z <= 0.0) return;
@@ -58,7 +66,7 @@ void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout S
         float around = c.a;
         for (int k = 0; k < 4; ++k)
             around = max(around, textureLod(pictures, uv + step * (2.0 * vec2(k & 1, k >> 1) - 1.0), 0.0).a);
-        seen.most = min(seen.most, around);
+        seen.most = min(seen.most, max(around, i == 0 ? own_next : own_first));
     }
     float sure = 1.0 - smoothstep(1.0, 2.0, nearest / (softness + spread[i] * q.z));
     float away = apart(ray_from_pixel * vec3(pixel, 1.0) * z, centre[i]);
@@ -102,6 +110,18 @@ void main() {
     // Depth errors grow with the angle to a rig: the other rigs count only where the first two show neither foreground
     // nor, at this instant, the background.
     float nearest = min(z[0], z[min(1, LAYERS - 1)]);
+#if LAYERS > 1
+    // Near a rig's own place other rigs' foreground counts where the rig does not see, or far in front of what it sees.
+#define OWN(i, j)                                                                                     \
+    if (own(i) > 0.0 && is_inside(i, pixel, set_z > 0.0 ? set_z : 1.0)) {                                   \
+        float own_z = min(z[i], set_z > 0.0 ? set_z : nothing);                                       \
+        nearest = hides(z[j], own_z, own(i)) ? nearest : z[i];                                        \
+    }
+    OWN(0, 1)
+    OWN(1, 0)
+    own_first = own(0);
+    own_next = own(1);
+#endif
     bool are_first = true;
     for (int tries = 0; tries < LAYERS; ++tries) {
         if (nearest == nothing && are_first && share == 0.0 && shown.a < 1.0) {

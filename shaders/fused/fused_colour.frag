@@ -77,6 +77,9 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, vec2 slop
     float tolerance = softness + spread[i] * q.z;
     float sure = consistency(map, uv, q.z, tolerance);
     sure *= sure * sure;
+#if LAYERS > 1
+    sure = max(sure, own(i));
+#endif
     e.direct = max(e.direct, sure);
     if (near_edge && sure < 0.5) {
         vec2 texel = 1.0 / vec2(textureSize(map, 0));

@@ -2,7 +2,8 @@
 // another rig where neither has, averaged over the rigs that have it within a soft distance. Depth errors grow with the
 // angle to a rig, and those of other rigs would hide what the first two see. A consistency check rejects a surface that
 // more rigs see through than have, or as many whose colours differ there (after Penner and Zhang, Soft 3D reconstruction,
-// 2017); then the next surface behind it is checked. Inpainted depth counts only where no rig has measured.
+// 2017); then the next surface behind it is checked. Inpainted depth counts only where no rig has measured. Near a rig's
+// own place the rig's surface prevails over others that are in front of it.
 #include "rig_layers.glsl"
 #include "two_stages.glsl"
 
@@ -80,6 +81,21 @@ void main() {
     if (by_the_first < nothing) measured = by_the_first;
 #endif
     bool is_confirmed = measured == nothing;
+#if LAYERS > 1
+    float most_own = 0.0, own_z = nothing;
+#define OWN(i)                                                        \
+    {                                                                 \
+        float its = z[i] < nothing ? own(i) : 0.0;                    \
+        /* Inpainted depth counts only where the rig's image hardly depends on it. */ \
+        if (candidates[i] == nothing && its < 0.5) its = 0.0;         \
+        if (its > most_own) most_own = its, own_z = z[i];             \
+    }
+    OWN(0) OWN(1)
+    if (most_own > 0.0 && !hides(measured, own_z, most_own)) {
+        measured = own_z;
+        is_confirmed = most_own > 0.5;
+    }
+#endif
 #if LAYERS == 2
     // Both rigs have it, so that none can see through it.
     is_confirmed = is_confirmed || abs(candidates[0] - candidates[1]) < (softness + spread[0] * measured) * measured;

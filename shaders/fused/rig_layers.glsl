@@ -46,6 +46,24 @@ float apart(vec3 point, vec3 rig_centre) {
     return 1.0 - dot(normalize(point), normalize(point - rig_centre));
 }
 
+// How much the virtual camera stands at a rig's own place, 1 to 0, by its distance from that rig relative to the next
+// one's. There the rig's image is what a camera sees, whatever depth its pixels have, and other rigs fill what it lacks.
+const vec2 own_place = vec2(0.03, 0.3);
+
+float own(int i) {
+#if LAYERS == 1
+    return 0.0;
+#else
+    float next = 1e9;
+#define NEXT(j) if (i != j) next = min(next, length(centre[j]));
+    FOR_LAYERS(NEXT)
+    return presence[i] * (1.0 - smoothstep(own_place.x, own_place.y, length(centre[i]) / max(next, 1e-9)));
+#endif
+}
+
+// Whether another rig's surface is in front of a rig's own one by so much that it hides it.
+bool hides(float z, float own_z, float its_own) { return z < own_z * (1.0 - its_own); }
+
 // Level of detail at which one source pixel is about one pixel of the virtual view.
 float detail_level(mat4 source_from_target, float z, float source_z) {
     return log2(max(length(source_from_target[0].xyz) * z / source_z, 1.0));

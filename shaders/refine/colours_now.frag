@@ -20,12 +20,11 @@ vec4 colour_now(ivec2 at) {
     vec4 set = texelFetch(background_colour, at, 0);
     if (set.a == 1.0) return set;
     vec2 uv = gl_FragCoord.xy / vec2(textureSize(picture, 0));
-    // A pixel beside the foreground may show neither the foreground nor the remembered background.
+    // Outside the matte the camera sees the background, in whatever light.
     float share = texelFetch(matte, at, 0).r;
-    bool is_neither = share == 0.0 && is_kind(textureLod(seen, uv, 0.0).r, undecided);
     float performer_m = abs(textureLod(performers, uv, 0.0).r);
     bool stands_before = performer_m > 0.0 && performer_m < before * abs(textureLod(background_depth, uv, 0.0).r);
-    bool is_now = is_neither || !stands_before;
+    bool is_now = share == 0.0 || !stands_before;
     return is_now ? vec4(texelFetch(picture, at, 0).rgb, 1.0) : vec4(set.rgb, share < 0.5 ? set.a : remembered);
 }
 

@@ -7,6 +7,7 @@
 #include "common/gl/context/egl_context.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "tests/bench/background_truth.h"
+#include "tests/bench/film_truth.h"
 #include "tests/bench/markdown_tables.h"
 #include "tests/bench/played_truth.h"
 #include "tests/bench/size_option.h"
@@ -73,6 +74,21 @@ int main(int argc, char** argv) {
     play->add_option("--write", document,
                      "Document that takes the tables, docs/results/live.md for example")
         ->check(CLI::ExistingFile);
+    FilmTruth filmed;
+    std::vector<std::string> scenes;
+    CLI::App* films = app.add_subcommand(
+        "films", "Generated films of plain surfaces, shadows and drifting light, and their truth");
+    films->add_option("--films", scenes, "box, brown, white, leaves, drift (default: all)")
+        ->delimiter(',');
+    films->add_option("--rigs", filmed.rigs, "1 or 2")->check(CLI::Range(1, 2));
+    films->add_option("--rig-size", size, "Of the rigs and of the virtual pictures");
+    films->add_option("--preset", preset, "Of the rigs' matchers");
+    films->add_option("--noise", filmed.noise_sigma, "Of the sensors, grey levels")
+        ->check(CLI::Range(0.0, 20.0));
+    films->add_flag_callback(
+        "--no-background", [&] { filmed.has_background = false; },
+        "Learn no background: every instant stands alone");
+    films->add_option("--pictures", filmed.pictures, "Folder for pictures beside their truth");
     CLI11_PARSE(app, argc, argv);
     try {
         if (play->parsed()) {
@@ -87,6 +103,15 @@ int main(int argc, char** argv) {
             wanted_set.rigs.size = size_of(size);
             wanted_set.rigs.preset = parse_preset(preset);
             std::cout << set_table(shaders, wanted_set);
+            return 0;
+        }
+        if (films->parsed()) {
+            filmed.size = size_of(size);
+            filmed.preset = parse_preset(preset);
+            if (!scenes.empty()) filmed.scenes.clear();
+            for (const std::string& scene : scenes)
+                filmed.scenes.push_back(parse_film_scene(scene));
+            std::cout << film_table(shaders, filmed);
             return 0;
         }
         stepped.with_times = !without_times;

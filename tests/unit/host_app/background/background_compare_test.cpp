@@ -1,3 +1,5 @@
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
@@ -126,6 +128,63 @@ TEST_F(BackgroundCompareTest, MarksTheTilesThatAMatteMayReach) {
             const cv::Rect apart = reached & patch;
             EXPECT_EQ(tiles(v, u), apart.empty() ? 0 : 255) << u << ' ' << v;
         }
+}
+
+/// A thing without texture that is measured at its edges only, and whose colour may be the wall's
+/// in another light.
+class PlainForegroundTest : public testing::Test {
+  protected:
+    static constexpr int plain_width_px = 96, plain_height_px = 80;
+    const cv::Rect box{30, 20, 36, 40};
+    const cv::Vec4b wall{120, 130, 110, 255};
+
+    static DepthView wall_view(const cv::Vec4b& colour) {
+        DepthView view;
+        view.K << 300, 0, 48, 0, 300, 40, 0, 0, 1;
+        view.baseline_m = 0.2;
+        view.colour = ColourImage(plain_height_px, plain_width_px, colour);
+        view.depth_m = DepthImage(plain_height_px, plain_width_px, 4.0f);
+        return view;
+    }
+    void see(const DepthView& view) {
+        rig_.upload(view, 0.2);
+        learner_.learn(rig_);
+    }
+    /// The matte of a box of this colour, with depth of its own on the rims that are given.
+    cv::Mat1b matte_of(const cv::Vec4b& colour, const std::vector<cv::Rect>& rims) {
+        for (int i = 0; i < 10; ++i) see(wall_view(wall));
+        DepthView view = wall_view(wall);
+        view.colour(box) = colour;
+        for (const cv::Rect& rim : rims) view.depth_m(rim) = 2.0f;
+        see(view);
+        return rig_.matte().download();
+    }
+    std::vector<cv::Rect> all_rims() const {
+        return {{box.x, box.y, box.width, 4},
+                {box.x, box.br().y - 4, box.width, 4},
+                {box.x, box.y, 4, box.height},
+                {box.br().x - 4, box.y, 4, box.height}};
+    }
+
+    EglContext context_;
+    ShaderLibrary shaders_;
+    BackgroundModel learner_{shaders_};
+    RigHistory rig_;
+};
+
+TEST_F(PlainForegroundTest, IsWholeWhereItsEdgesAreMeasured) {
+    for (const cv::Vec4b& colour : {cv::Vec4b(220, 40, 30, 255), cv::Vec4b(wall * 0.7)}) {
+        const cv::Mat1b matte = matte_of(colour, all_rims());
+        EXPECT_EQ(cv::countNonZero(matte(box) > 127), box.area()) << colour;
+        EXPECT_EQ(matte(5, 5), 0);
+    }
+}
+
+/// A shadow borders on what throws it on one side only.
+TEST_F(PlainForegroundTest, DoesNotTakeTheShadowBesideIt) {
+    const cv::Mat1b matte = matte_of(wall * 0.7, {{box.x, box.y, box.width, 8}});
+    const cv::Rect shadow(box.x, box.y + 14, box.width, box.height - 14);
+    EXPECT_EQ(cv::countNonZero(matte(shadow) > 127), 0);
 }
 
 }  // namespace

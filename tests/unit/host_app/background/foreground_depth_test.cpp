@@ -1,5 +1,6 @@
 #include "host_app/foreground/foreground_depth.h"
 
+#include <algorithm>
 #include <memory>
 #include <span>
 #include <vector>
@@ -148,6 +149,17 @@ TEST_F(ForegroundDepthTest, IsInpaintedFromAfarIfAnotherRigSeesForegroundThere) 
     const DepthImage whole = found(wrong, {-1.0});
     EXPECT_LT(cv::norm(whole(strip), DepthImage(strip.size(), square_m), cv::NORM_INF), 1e-3)
         << whole(strip);
+}
+
+/// A plain surface has depth at its edges only.
+TEST_F(ForegroundDepthTest, IsInpaintedFromAfarIfNoOtherRigContradicts) {
+    DepthView torn = film(0, true);
+    const cv::Rect box = cv::boundingRect(square());
+    const cv::Rect hole(box.x + 4, box.y + 4, box.width - 8, box.height - 8);
+    ASSERT_GT(std::min(hole.width, hole.height), 13) << "wider than the neighbourhood";
+    torn.depth_m(hole) = 0.0f;
+    const DepthImage whole = found(torn, {});
+    EXPECT_LT(cv::norm(whole(hole), DepthImage(hole.size(), square_m), cv::NORM_INF), 1e-3);
 }
 
 TEST_F(ForegroundDepthTest, IsSmoothedWithinASurface) {

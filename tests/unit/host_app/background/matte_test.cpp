@@ -32,15 +32,18 @@ class MatteTest : public testing::Test {
                     picture_(v, u)[c] =
                         static_cast<uchar>(90 + 20 * ((patch / 3 + c) % 3) + random.uniform(0, 6));
             }
+        for (uchar& share : enclosed_) share = static_cast<uchar>(random.uniform(0, 256));
     }
     cv::Mat1b drawn() {
         FullscreenPass pass(shaders_, "matte.frag");
         const Texture picture = texture_of(TextureFormat::rgba8, picture_);
         const Texture seen = texture_of(TextureFormat::rgba8, seen_);
+        const Texture enclosed = texture_of(TextureFormat::r8, enclosed_);
         const Texture target(TextureFormat::r8, matte_width_px, matte_height_px);
         Program& program = pass.use();
         program.input("picture", picture);
         program.input("seen", seen);
+        program.input("enclosed", enclosed);
         cv::Mat1b matte;
         cv::extractChannel(drawn_by(pass, target), matte, 0);
         return matte;
@@ -83,15 +86,20 @@ class MatteTest : public testing::Test {
         margin = 1;
         const uchar own = seen_(v, u)[0];
         if (own == uncovered) return true;
-        if (before == 0) return false;
-        const double around = static_cast<double>(before) / count;
+        const double region =
+            enclosed_(v * enclosed_.rows / matte_height_px, u * enclosed_.cols / matte_width_px) /
+            255.0;
+        if (before == 0 && region < 0.5) return false;
+        like_before += 2 * region;
+        like_background += 2 * (1 - region);
+        const double around = static_cast<double>(before) / std::max(count, 1);
         if (own == new_background) {
             margin = std::min(std::abs(like_before - like_background), std::abs(around - 0.4));
             return around > 0.4 && like_before > like_background;
         }
         if (own != before_background && own != undecided) {
             margin = std::abs(around - 0.8);
-            return around > 0.8;
+            return around > 0.8 || region >= (own == lit_background ? 0.7 : 0.95);
         }
         margin = std::min(std::abs(like_before - like_background), std::abs(around - 0.15));
         const bool is_like_before = like_before > like_background;
@@ -103,6 +111,8 @@ class MatteTest : public testing::Test {
     ShaderLibrary shaders_;
     ColourImage picture_ = ColourImage(matte_height_px, matte_width_px, cv::Vec4b(0, 0, 0, 255));
     ColourImage seen_ = picture_.clone();
+    /// As matte_region.frag draws it, at an exact fraction of the size.
+    cv::Mat1b enclosed_{9, 67};
 };
 
 TEST_F(MatteTest, MatchesTheReference) {
@@ -127,6 +137,7 @@ TEST_F(MatteTest, MatchesTheReference) {
 TEST_F(MatteTest, IsEmptyWithoutForeground) {
     for (cv::Vec4b& seen : seen_)
         if (seen[0] == before_background || seen[0] == uncovered) seen[0] = undecided;
+    enclosed_.setTo(0);
     EXPECT_EQ(cv::countNonZero(drawn()), 0);
 }
 

@@ -86,6 +86,25 @@ TEST_F(FusedDepthTest, UsesInpaintedDepthOnlyWhereNoRigMeasured) {
     EXPECT_NEAR(fused({{0.1, -2.005f}, {-0.2, 2}}), 2.004, 1e-3);
 }
 
+/// Another rig's wrong surface would lie over the picture that the rig really took.
+TEST_F(FusedDepthTest, KeepsARigsSurfaceAtItsOwnPlace) {
+    EXPECT_NEAR(fused({{0.001, 4}, {-0.3, 2}}), 4, 4e-4);
+    EXPECT_NEAR(fused({{-0.3, 2}, {0.001, 4}}), 4, 4e-4);
+    EXPECT_NEAR(fused({{0.001, 4}, {-0.3, 2}, {0.3, 2}}), 4, 4e-4) << "against two rigs";
+    EXPECT_NEAR(fused({{0.001, -4}, {-0.3, 2}}), 4, 4e-4) << "whatever depth it has there";
+    EXPECT_NEAR(fused({{5, 4}, {-0.3, 2}}), 2, 2e-4) << "where it does not look";
+    EXPECT_NEAR(fused({{0.001, 4, 0.0f}, {-0.3, 2}}), 2, 2e-4) << "while it is hidden";
+}
+
+/// The farther from its place, the less far another surface must be in front of the rig's.
+TEST_F(FusedDepthTest, LetsOtherSurfacesInSmoothlyAwayFromARigsPlace) {
+    EXPECT_NEAR(fused({{0.03, 4}, {-0.3, 2}}), 4, 4e-4);
+    EXPECT_NEAR(fused({{0.05, 4}, {-0.3, 1.9f}}), 1.9, 2e-4);
+    EXPECT_NEAR(fused({{0.05, 4}, {-0.3, 2.2f}}), 4, 4e-4);
+    EXPECT_NEAR(fused({{0.075, 4}, {-0.3, 2}}), 2, 2e-4);
+    EXPECT_NEAR(fused({{0.075, 4}, {-0.3, 3.8f}}), 4, 4e-4);
+}
+
 TEST_F(FusedDepthTest, IsNothingWhereNoRigLooks) { EXPECT_EQ(fused({{5, 2}, {-5, 3}}), 0); }
 
 }  // namespace
