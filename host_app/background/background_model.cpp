@@ -27,6 +27,8 @@ constexpr double absorbed_after_s = 120;
 /// Time without change after which a pixel's background is known; a shorter pause may be part of a
 /// movement.
 constexpr double known_after_s = 0.5;
+/// Alpha of a colour mean from which down a pixel never stands still (background_known.glsl).
+constexpr float restless_still = -3;
 /// Instants in the longest means; certainties are shares of them.
 constexpr int max_depth_mean = 128, max_colour_mean = 32;
 /// Width of the picture that look_at() reads back, px.
@@ -180,6 +182,16 @@ cv::Mat1b BackgroundModel::known(const RigBackground& background, double dt_s) {
     cv::extractChannel(background.colour, still, 3);
     cv::resize(still, still, background.depth_m.size(), 0, 0, cv::INTER_NEAREST);
     return (still >= std::floor(least)) & (background.depth_m > 0);
+}
+
+cv::Mat1b BackgroundModel::shown(const RigHistory& rig) {
+    cv::Mat mean;
+    rig.colour_mean().download().convertTo(mean, CV_32F);
+    cv::Mat1f still;
+    cv::extractChannel(mean, still, 3);
+    cv::resize(still, still, rig.depth().size(), 0, 0, cv::INTER_NEAREST);
+    // As background_known.glsl has it.
+    return (still + 1 >= known_after(rig)) | (still <= restless_still);
 }
 
 BackgroundView BackgroundModel::picture(const RigHistory& rig) {

@@ -35,6 +35,9 @@ class BackgroundModel {
     static void restore(RigHistory& rig, const RigBackground& background);
     /// Where a background that was learnt from instants `dt_s` apart is known; of its depth's size.
     static cv::Mat1b known(const RigBackground& background, double dt_s);
+    /// Reads back where the rig's background is known, or never stands still; of its depth's size.
+    /// Elsewhere its depth and colour may be those of foreground. Precondition as for learnt().
+    static cv::Mat1b shown(const RigHistory& rig);
     /// Reads back the input of background stereo, in the depth's size or smaller. Precondition as
     /// for learnt().
     static BackgroundView picture(const RigHistory& rig);

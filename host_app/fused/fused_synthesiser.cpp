@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "common/gl/two_stage_pass.h"
+#include "host_app/baked/baked_painter.h"
 #include "host_app/fused/foreground_layers.h"
 #include "host_app/fused/fused_colour.h"
 #include "host_app/fused/impulse_filter.h"
@@ -20,7 +21,12 @@ namespace {
 class FusedRenderer final : public ViewRenderer {
   public:
     explicit FusedRenderer(const ShaderLibrary& library)
-        : colour_(library), blender_(library), impulses_(library), performers_(library) {
+        : colour_(library),
+          blender_(library),
+          impulses_(library),
+          performers_(library),
+          baked_(library),
+          filler_(library) {
         for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
             depth_pass_.emplace_back(library, "fused_depth.frag",
                                      ShaderDefines{{"LAYERS", std::to_string(layers)}});
@@ -28,6 +34,8 @@ class FusedRenderer final : public ViewRenderer {
 
     const Texture& render(const Instant& instant, const VirtualView& view,
                           const RenderLevel& level) override {
+        if (const auto* baked = dynamic_cast<const BakedInstant*>(instant.extra.get()))
+            return render_baked(instant, *baked, view, level);
         RigLayers& layers = blender_.layers();
         const std::vector<const InstantRig*> rigs = ranked_rigs(instant, view, level.rigs);
         layers.draw(layers_of(rigs), view, finely_drawn(instant, level));
@@ -61,12 +69,37 @@ class FusedRenderer final : public ViewRenderer {
 
     bool note_origins(bool noted) override {
         blender_.note_origins(noted);
+        notes_origins_ = noted;
         return true;
     }
     const PixelOrigins* origins() const override { return origins_ ? &*origins_ : nullptr; }
     const Texture* depth_m() const override { return depth_m_; }
 
   private:
+    /// Renders an instant whose background is baked.
+    const Texture& render_baked(const Instant& instant, const BakedInstant& baked,
+                                const VirtualView& view, const RenderLevel& level) {
+        const std::vector<const InstantRig*> rigs = ranked_rigs(instant, view, level.rigs);
+        origins_.reset();
+        std::vector<std::string> names;
+        if (notes_origins_)
+            for (const InstantRig* rig : ranked_rigs(instant, view, PixelOrigins::max_rigs))
+                names.push_back(rig->camera().name);
+        const DepthPicture& background =
+            baked_.draw(baked, view, near_plane_m(layers_of(rigs)), names, level.is_plain,
+                        remembered_alpha / 255.0f);
+        const Texture& filled = filler_.fill(background.colour(), background.depth_m());
+        if (notes_origins_) origins_ = {background.shares(), names};
+        depth_m_ = &background.depth_m();
+        if (rigs.empty()) return filled;
+        const std::vector<DrawnLayer> performers = layers_of(rigs, &InstantRig::boundary);
+        const DepthPicture& picture = performers_.show(
+            filled, background.depth_m(), background.shares(), performers, view, level.is_plain);
+        if (origins_) origins_->shares = picture.shares();
+        depth_m_ = &picture.depth_m();
+        return impulses_.filter(picture.colour(), *depth_m_);
+    }
+
     void find_depth() {
         const RigLayers& layers = blender_.layers();
         depth_pass_[layers.used().size() - 1].draw(fused_depth_.target(), [&](Program& program) {
@@ -79,6 +112,9 @@ class FusedRenderer final : public ViewRenderer {
     LayerBlender blender_;
     ImpulseFilter impulses_;
     ForegroundLayers performers_;
+    BakedPainter baked_;
+    HoleFiller filler_;
+    bool notes_origins_ = false;
     std::optional<PixelOrigins> origins_;
     const Texture* depth_m_ = nullptr;
     std::vector<TwoStagePass> depth_pass_;  ///< one for every number of layers

@@ -20,6 +20,10 @@ constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
 /// Time from the first learning to background stereo, and between two runs of it: the first time,
 /// and doubled each time up to the longest, since results for a still background hardly change.
 constexpr double learnt_before_match_s = 2.5, first_match_rest_s = 5, longest_match_rest_s = 80;
+/// Time between two bakes: the first time, and doubled each time up to the longest.
+constexpr double first_bake_rest_s = 1, longest_bake_rest_s = 16;
+/// Age of a rig's colours from which on those that were baked are used.
+constexpr double longest_coloured_s = 2;
 /// Time for which the cheapest levels keep a known background's shape; colours are always new.
 constexpr double shape_kept_s = 1;
 /// Instants that must be learnt before hidden parts of the background are remembered.
@@ -41,12 +45,14 @@ StagedPreparer::StagedPreparer(const ShaderLibrary& library)
       show_matched_(library, "background_matched.frag"),
       colour_performers_(library, "foreground_colour.frag") {
     match_anew(learnt_before_match_s);
+    bake_anew();
 }
 
 void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     now_s_ += dt_s;
     uploaded_ = rigs_.upload(views, dt_s);
     for (RigHistory* rig : uploaded_) begin_with_learnt(*rig);
+    check_baked();
     learnt_.clear();
     has_depths_.clear();
     if (std::exchange(is_after_cut_, false)) return;
@@ -57,6 +63,7 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
 void StagedPreparer::warm_up(std::span<const DepthView> views, const VirtualView& target) {
     // Enough instants to remember a background, with enough time between them to refine it.
     match_anew(std::numeric_limits<double>::infinity());
+    bake_due_s_ = std::numeric_limits<double>::infinity();
     for (int i = 0; i < remembered_from; ++i) take(views, improvement_period_s);
     constexpr PrepareLevel best_of_one{0, 1, true, true};
     (void)prepare(target, prepare_levels().back());
@@ -71,6 +78,7 @@ void StagedPreparer::warm_up(std::span<const DepthView> views, const VirtualView
     rigs_.forget();
     improved_s_ = now_s_;
     match_anew(now_s_ + learnt_before_match_s);
+    bake_anew();
 }
 
 void StagedPreparer::cut() {
@@ -145,6 +153,7 @@ void StagedPreparer::begin_with(std::shared_ptr<const Background> set) {
     misfits_.clear();
     states_.clear();
     match_anew(now_s_ + learnt_before_match_s);
+    bake_anew();
 }
 
 void StagedPreparer::learn_anew() {
@@ -214,6 +223,7 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
     if (!matched) return;
     match_due_s_ = now_s_ + match_rest_s_;
     match_rest_s_ = std::min(2 * match_rest_s_, longest_match_rest_s);
+    bake_rest_s_ = first_bake_rest_s;
     for (std::size_t i = 0; i < depths_m.size(); ++i) {
         RigHistory* rig = matched->rigs[i];
         if (!rigs_.has_learnt(rig) || rig->depth().size() != matched->depth_sizes[i]) continue;
@@ -225,6 +235,113 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
         model.rest_s = 0;
         rig->set_background_model(model);
     }
+}
+
+std::vector<StagedPreparer::Baking::Rig> StagedPreparer::rigs_to_bake() const {
+    std::vector<Baking::Rig> rigs;
+    for (RigHistory* rig : rigs_.shown()) {
+        if (!rigs_.has_learnt(rig) || !rig->model() || rig->model()->rank > 0) return {};
+        rigs.push_back({rig, rig->model()->made_s});
+    }
+    return rigs;
+}
+
+bool StagedPreparer::bake_a_step(BackgroundStereoTask::Manner manner) {
+    if (bake_task_.is_under_way()) {
+        if (const auto baked = bake_task_.take()) take_bake(*baked);
+        return false;
+    }
+    if (!baking_) {
+        if (now_s_ < bake_due_s_) return false;
+        Baking next{rigs_to_bake(), {}};
+        if (next.rigs.empty() || next.rigs == baked_of_) return false;
+        baking_ = std::move(next);
+    }
+    const Baking::Rig& next = baking_->rigs[baking_->views.size()];
+    if (!rigs_.has_learnt(next.rig) || !next.rig->model()) {
+        baking_.reset();
+        return false;
+    }
+    DepthView view = next.rig->camera();
+    view.depth_m = next.rig->model()->surface->depth().download();
+    view.depth_m.setTo(0, ~BackgroundModel::shown(*next.rig));
+    view.colour = next.rig->colour().download();
+    baking_->views.push_back(std::move(view));
+    if (baking_->views.size() < baking_->rigs.size()) return true;
+    bake_task_.begin(baking_->views, manner == BackgroundStereoTask::Manner::when_waited_for);
+    return false;
+}
+
+void StagedPreparer::take_bake(const BakedBackground& baked) {
+    const std::optional<Baking> baking = std::exchange(baking_, std::nullopt);
+    if (!baking) return;
+    bake_due_s_ = now_s_ + bake_rest_s_;
+    bake_rest_s_ = std::min(2 * bake_rest_s_, longest_bake_rest_s);
+    const std::shared_ptr<BakedSurface> surface = baked_surfaces_.take();
+    surface->upload(baked);
+    baked_ = surface;
+    baked_of_ = baking->rigs;
+}
+
+void StagedPreparer::check_baked() {
+    if (!baked_) return;
+    for (std::size_t i = 0; i < baked_of_.size(); ++i) {
+        const RigHistory* rig = baked_of_[i].rig;
+        const DepthView& camera = baked_->views()[i].camera;
+        if (rigs_.has_learnt(rig) && rig->model() && rig->camera().name == camera.name &&
+            rig->camera().K == camera.K &&
+            rig->camera().world_from_camera.matrix() == camera.world_from_camera.matrix())
+            continue;
+        bake_anew();
+        return;
+    }
+}
+
+void StagedPreparer::bake_anew() {
+    baked_.reset();
+    baked_of_.clear();
+    coloured_.clear();
+    baking_.reset();
+    bake_due_s_ = now_s_;
+    bake_rest_s_ = first_bake_rest_s;
+}
+
+void StagedPreparer::colour_in_turn() {
+    RigHistory* oldest = nullptr;
+    double since_s = now_s_;
+    for (const Baking::Rig& one : baked_of_) {
+        const bool is_learnt = std::find(learnt_.begin(), learnt_.end(), one.rig) != learnt_.end();
+        if (!is_learnt || prepared_rigs_.contains(one.rig) || !one.rig->surface()) continue;
+        const auto coloured = coloured_.find(one.rig);
+        const double its_s = coloured == coloured_.end() ? 0 : coloured->second.coloured_s;
+        if (its_s < since_s) {
+            oldest = one.rig;
+            since_s = its_s;
+        }
+    }
+    if (!oldest) return;
+    const std::shared_ptr<RigSurface> surface = surfaces_.take(shapes_);
+    surface->begin_like(*oldest->surface(), oldest->samples());
+    // Its foreground's own depth is not computed: what it measures there comes close enough.
+    colour_set(*surface, *oldest, oldest->depth());
+    coloured_[oldest] = {surface, now_s_};
+}
+
+std::shared_ptr<const BakedInstant> StagedPreparer::baked_instant() {
+    if (!baked_) return nullptr;
+    colour_in_turn();
+    auto instant = std::make_shared<BakedInstant>();
+    instant->background = baked_;
+    for (const Baking::Rig& one : baked_of_) {
+        if (prepared_rigs_.contains(one.rig)) {
+            coloured_[one.rig] = {one.rig->surface(), now_s_};
+        }
+        const auto coloured = coloured_.find(one.rig);
+        const bool is_fresh = coloured != coloured_.end() &&
+                              now_s_ - coloured->second.coloured_s < longest_coloured_s;
+        instant->colours.push_back(is_fresh ? coloured->second.surface : nullptr);
+    }
+    return instant;
 }
 
 void StagedPreparer::match_anew(double due_s) {
@@ -290,7 +407,9 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
 }
 
 bool StagedPreparer::has_shape(const RigHistory& rig, const PrepareLevel& level) const {
-    return !level.is_refined && rig.shape_made_s() && now_s_ - *rig.shape_made_s() < shape_kept_s &&
+    // A baked background is drawn without it.
+    const double kept_s = baked_ ? std::numeric_limits<double>::infinity() : shape_kept_s;
+    return !level.is_refined && rig.shape_made_s() && now_s_ - *rig.shape_made_s() < kept_s &&
            (rig.surface()->has_fine_grid() || !level.has_fine_grid);
 }
 
@@ -327,18 +446,23 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
         surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
         make_shape(*surface, rig, performers_m, level);
     }
+    colour_set(*surface, rig, performers_m);
+    return surface;
+}
+
+void StagedPreparer::colour_set(RigSurface& surface, const RigHistory& rig,
+                                const Texture& performers_m) {
     Program& now = now_.use();
     now.input("picture", rig.fresh_colour());
     now.input("background_colour", rig.colour());
     now.input("performers", performers_m);
     now.input("seen", rig.background_state().seen());
-    now.input("matte", rig.matte().texture());
-    now.input("background_depth", surface->depth());
-    now.input("confidence", surface->confidence().texture());
+    now.input("matte", rig.matte());
+    now.input("background_depth", surface.depth());
+    now.input("confidence", surface.confidence().texture());
     now.set("remembered", RigSurface::remembered_confidence);
-    now_.draw(surface->colour_target());
-    surface->finish_colour();
-    return surface;
+    now_.draw(surface.colour_target());
+    surface.finish_colour();
 }
 
 void StagedPreparer::publish(RigHistory& rig, const PrepareLevel& level) {
@@ -362,17 +486,19 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
         if (!rig->prepared_rank() || *rig->prepared_rank() > level.rank) publish(*rig, level);
         instant->rigs.push_back({rig->surface(), rig->performers(), rig->presence()});
     }
+    instant->extra = baked_instant();
     return instant;
 }
 
 void StagedPreparer::improve(const VirtualView& target) {
     while (improve_a_step(target, BackgroundStereoTask::Manner::when_waited_for)) continue;
     if (const auto depths_m = matching_.take(true)) take_match(*depths_m);
+    if (const auto baked = bake_task_.take(true)) take_bake(*baked);
 }
 
 bool StagedPreparer::improve_a_step(const VirtualView& target,
                                     BackgroundStereoTask::Manner manner) {
-    if (match_a_step(manner)) return true;
+    if (match_a_step(manner) || bake_a_step(manner)) return true;
     if (refinement_pass_ && !is_under_way(*refinement_pass_)) refinement_pass_.reset();
     if (!refinement_pass_) begin_refining(target);
     if (!refinement_pass_) return false;
@@ -388,13 +514,16 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
 
 void StagedPreparer::begin_refining(const VirtualView& target) {
     if (now_s_ - improved_s_ < improvement_period_s) return;
-    // The rig in view whose model has been due for longest.
+    // The rig in view whose model has been due for longest; the first model is due at once, since
+    // the background is baked from those of all rigs.
     const auto due_s = [](const RigHistory& rig) {
+        if (!rig.model()) return 0.0;
         return rig.model()->made_s + (rig.model()->rank == 0 ? rig.model()->rest_s : 0);
     };
     RigHistory* oldest = nullptr;
     for (RigHistory* rig : most_useful(rigs_.shown(), target, most_drawn_rigs))
-        if (rig->model() && due_s(*rig) <= now_s_ && (!oldest || due_s(*rig) < due_s(*oldest)))
+        if (rigs_.has_learnt(rig) && due_s(*rig) <= now_s_ &&
+            (!oldest || due_s(*rig) < due_s(*oldest)))
             oldest = rig;
     if (!oldest) return;
     learn(uploaded_);

@@ -10,6 +10,8 @@
 
 #include "host_app/background/background_model.h"
 #include "host_app/background/background_stereo_task.h"
+#include "host_app/baked/bake_task.h"
+#include "host_app/baked/baked_surface.h"
 #include "host_app/foreground/foreground_depth.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/refine/depth_inpainting.h"
@@ -81,6 +83,31 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     };
     /// Does a step of background stereo if one is due. Returns true if more is left to read back.
     bool match_a_step(BackgroundStereoTask::Manner manner);
+    /// A bake of the background: the rigs' models are read back one by one, baked on another thread
+    /// and uploaded.
+    struct Baking {
+        struct Rig {
+            RigHistory* rig = nullptr;
+            double made_s = 0;  ///< of its model
+            bool operator==(const Rig&) const = default;
+        };
+        std::vector<Rig> rigs;
+        std::vector<DepthView> views;  ///< read back so far
+    };
+    /// Does a step of a bake if one is due. Returns true if more is left to read back.
+    bool bake_a_step(BackgroundStereoTask::Manner manner);
+    void take_bake(const BakedBackground& baked);
+    /// The rigs in view with their models; empty unless all of them have one of the best level.
+    std::vector<Baking::Rig> rigs_to_bake() const;
+    /// Drops the baked background if a rig of it was calibrated anew or forgotten.
+    void check_baked();
+    /// Drops the baked background. The next one is made as soon as there are models.
+    void bake_anew();
+    /// Draws new colours for the rig of the baked background that has the oldest ones, of those
+    /// that were learnt from this instant and are not prepared.
+    void colour_in_turn();
+    /// Returns the baked background with the rigs' newest colours; null if there is none.
+    std::shared_ptr<const BakedInstant> baked_instant();
     /// improve_a_step() with the manner in which background stereo runs.
     bool improve_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner);
     void take_match(std::span<const DepthImage> depths_m);
@@ -89,6 +116,8 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
                                              const PrepareLevel& level);
+    /// Draws the colours of the rig's background at this instant.
+    void colour_set(RigSurface& surface, const RigHistory& rig, const Texture& performers_m);
     /// Whether the background's shape of the last instant is reused at this level.
     bool has_shape(const RigHistory& rig, const PrepareLevel& level) const;
     void make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
@@ -107,6 +136,17 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     std::optional<Matched> matched_;
     BackgroundStereoTask matching_;
     double match_due_s_ = 0, match_rest_s_ = 0;
+    RecyclePool<BakedSurface> baked_surfaces_;
+    std::optional<Baking> baking_;       ///< under way
+    std::vector<Baking::Rig> baked_of_;  ///< what baked_ was made from
+    std::shared_ptr<const BakedSurface> baked_;
+    struct Coloured {
+        std::shared_ptr<const RigSurface> surface;
+        double coloured_s = 0;
+    };
+    std::map<RigHistory*, Coloured> coloured_;  ///< newest colours of the baked rigs
+    BakeTask bake_task_;
+    double bake_due_s_ = 0, bake_rest_s_ = 0;
     BackgroundModel sets_;
     ForegroundDepth performers_;
     MultiViewRefinement refinement_;

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/context/egl_context.h"
+#include "host_app/baked/baked_surface.h"
 #include "tests/unit/host_app/fused/wall_and_square.h"
 #include "tests/unit/host_app/refine/pole_before_wall.h"
 
@@ -331,6 +332,87 @@ TEST_F(RefinedBackgroundTest, IsAbandonedIfARigChangesMeanwhile) {
         preparer_.prepare(target_, prepare_levels().front());
     ASSERT_EQ(instant->rigs.size(), 3u);
     EXPECT_EQ(instant->rigs[0].surface->depth().width_px(), staged_width_px + 20);
+}
+
+class BakedBackgroundTest : public RefinedBackgroundTest {
+  protected:
+    std::shared_ptr<const BakedInstant> next_instant(const std::vector<DepthView>& views) {
+        preparer_.take(views, 0.4);
+        target_ = {staged_width_px, staged_height_px, views[1].K, views[1].world_from_camera};
+        const auto instant = preparer_.prepare(target_, prepare_levels().back());
+        preparer_.improve(target_);
+        return std::dynamic_pointer_cast<const BakedInstant>(instant->extra);
+    }
+    std::shared_ptr<const BakedInstant> first_baked(const std::vector<DepthView>& views) {
+        std::shared_ptr<const BakedInstant> baked;
+        for (int i = 0; i < 20 && !baked; ++i) baked = next_instant(views);
+        return baked;
+    }
+};
+
+TEST_F(BakedBackgroundTest, IsMadeOnceAllRigsHaveAModelOfTheBestLevel) {
+    const auto baked = first_baked(rigs());
+    ASSERT_NE(baked, nullptr);
+    ASSERT_EQ(baked->background->views().size(), 3u);
+    EXPECT_EQ(baked->background->parts().size(), 3u);
+    ASSERT_EQ(baked->colours.size(), 3u);
+}
+
+/// An instant that is still drawn keeps the background that it was prepared with.
+TEST_F(BakedBackgroundTest, IsMadeAnewOnlyAfterAModelHasChanged) {
+    const auto first = first_baked(rigs());
+    ASSERT_NE(first, nullptr);
+    const int triangles = first->background->triangles();
+    // Before the next refinement nothing can change.
+    preparer_.take(rigs(), 0.01);
+    preparer_.improve(target_);
+    const auto same = std::dynamic_pointer_cast<const BakedInstant>(
+        preparer_.prepare(target_, prepare_levels().back())->extra);
+    ASSERT_NE(same, nullptr);
+    EXPECT_EQ(same->background, first->background);
+    auto next = same;
+    for (int i = 0; i < 20 && next->background == first->background; ++i)
+        next = next_instant(rigs());
+    EXPECT_NE(next->background, first->background);
+    EXPECT_EQ(first->background->triangles(), triangles);
+}
+
+TEST_F(BakedBackgroundTest, IsDroppedIfARigIsCalibratedAnew) {
+    ASSERT_NE(first_baked(rigs()), nullptr);
+    std::vector<DepthView> views = rigs();
+    views[2].world_from_camera.translation().x() += 0.01;
+    preparer_.take(views, 0.4);
+    EXPECT_EQ(preparer_.prepare(target_, prepare_levels().back())->extra, nullptr);
+    EXPECT_NE(first_baked(views), nullptr) << "and made anew";
+}
+
+TEST_F(BakedBackgroundTest, IsForgottenWithTheBackground) {
+    ASSERT_NE(first_baked(rigs()), nullptr);
+    preparer_.background_access()->learn_anew();
+    preparer_.take(rigs(), 0.4);
+    EXPECT_EQ(preparer_.prepare(target_, prepare_levels().back())->extra, nullptr);
+}
+
+TEST_F(BakedBackgroundTest, ShowsTheNewestColoursOfAllRigsInTurn) {
+    ASSERT_NE(first_baked(rigs()), nullptr);
+    std::vector<DepthView> lit = rigs();
+    for (DepthView& view : lit)
+        for (cv::Vec4b& c : view.colour) c = cv::Vec4b(c[0] / 2, c[1] / 2, c[2] / 2, 255);
+    std::shared_ptr<const BakedInstant> baked;
+    for (int i = 0; i < 4; ++i) {
+        preparer_.take(lit, 0.4);
+        baked = std::dynamic_pointer_cast<const BakedInstant>(
+            preparer_.prepare(target_, {3, 1, false, false})->extra);
+    }
+    ASSERT_NE(baked, nullptr);
+    int coloured = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!baked->colours[i]) continue;
+        ++coloured;
+        const ColourImage shown = baked->colours[i]->colour().download();
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(shown(5, 5)[c], lit[i].colour(5, 5)[c], 3);
+    }
+    EXPECT_GE(coloured, 2);
 }
 
 /// Three rigs whose own depth misses a pole before a wall.
