@@ -102,7 +102,7 @@ TEST_F(ShowFaults, ARigWhoseClockIsSetIsLeftOutUntilItIsRight) {
     far_->send_signal(ahead);
     expect_to_be_named_until("rig far: it counts pulses differently", back);
     far_->send_signal(back);
-    expect_to_be_named_until("rig far: its frames come beyond the latency budget", ahead);
+    expect_to_be_named_until("rig far: its frames arrive after the latency budget", ahead);
     host_->send_signal(SIGINT);
     const ProgramResult result = host_->wait();
     const nlohmann::json summary = nlohmann::json::parse(result.out);
