@@ -132,9 +132,9 @@ TEST_F(ShowFaults, AStepOfARigsClockThatNothingElseShowsIsNamed) {
         return std::atof(log.c_str() + log.find(words) + words.size());
     };
     far_->send_signal(SIGUSR1);
-    EXPECT_NEAR(named_ms("rig far: its clock was set once, by "), 50, 10);
+    EXPECT_NEAR(named_ms("rig far: its clock was set once, last by "), 50, 10);
     far_->send_signal(SIGUSR2);
-    EXPECT_NEAR(named_ms("rig far: its clock was set 2 times, by "), -50, 10);
+    EXPECT_NEAR(named_ms("rig far: its clock was set 2 times, last by "), -50, 10);
     host_->send_signal(SIGINT);
     const ProgramResult result = host_->wait();
     const nlohmann::json summary = nlohmann::json::parse(result.out);
