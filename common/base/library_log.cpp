@@ -14,15 +14,14 @@ LibraryCounts& library_counts() {
     return *counts;
 }
 
-void count_message(const std::string& library) {
+/// Returns the number of messages of this library since the start.
+std::uint64_t count_message(const std::string& library) {
     LibraryCounts& counts = library_counts();
     const std::lock_guard lock(counts.mutex);
     for (auto& [name, count] : counts.all)
-        if (name == library) {
-            ++count;
-            return;
-        }
+        if (name == library) return ++count;
     counts.all.emplace_back(library, 1);
+    return 1;
 }
 
 }  // namespace
@@ -34,14 +33,13 @@ void LibraryLog::note(std::string message) {
     while (!message.empty() && (message.back() == '\n' || message.back() == ' '))
         message.pop_back();
     if (message.empty()) return;
-    count_message(library_);
+    const std::uint64_t all = count_message(library_);
     const std::lock_guard lock(mutex_);
-    ++all_;
     const auto times = limiter_.count(1, MonotonicClock::now());
     if (!times || level_ < log_threshold()) return;
     log_line(level_, *times == 1 ? fmt::format("{}: {}", library_, message)
                                  : fmt::format("{}: {} messages ({} since the start), the last: {}",
-                                               library_, *times, all_, message));
+                                               library_, *times, all, message));
 }
 
 std::vector<std::pair<std::string, std::uint64_t>> LibraryLog::counts() {

@@ -31,7 +31,6 @@ class LibraryLog {
     const LogLevel level_;
     std::mutex mutex_;
     LogLimiter limiter_{std::chrono::seconds(10)};
-    std::uint64_t all_ = 0;
 };
 
 }  // namespace vantage

@@ -36,7 +36,7 @@ std::vector<SocketAddress> resolve_all(std::string host, int port, const std::st
 /// The addresses of this computer, "eth0 10.0.0.2", for bug reports.
 std::vector<std::string> own_addresses();
 
-/// An address of a name at which a socket was opened.
+/// An address of a name, and the result of listening there or connecting to it.
 struct ListenAttempt {
     SocketAddress address;
     int error = 0;  ///< errno; 0: it succeeded

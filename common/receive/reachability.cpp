@@ -51,8 +51,8 @@ std::string reason_of(const Endpoint& endpoint, const std::vector<ListenAttempt>
             words_of(endpoint, attempts));
     if (all_failed_with(ETIMEDOUT))
         return fmt::format(
-            "nothing answers at {}: check that its computer is on, the cable and the firewall "
-            "open?",
+            "nothing answers at {}: check that its computer is on, that the cable is plugged in "
+            "and that the firewall lets the port through",
             words_of(endpoint, attempts));
     std::string failures;
     for (const ListenAttempt& attempt : attempts)

@@ -141,10 +141,6 @@ int checked_quality(int jpeg_quality) {
     return jpeg_quality;
 }
 
-float milliseconds_since(MonotonicTime start) {
-    return std::chrono::duration<float, std::milli>(MonotonicClock::now() - start).count();
-}
-
 }  // namespace
 
 struct ColourPacker::Impl {
@@ -174,7 +170,7 @@ void ColourPacker::pack(RigFrame& frame) {
             frame.packed_right_bytes = right.size();
         }
     }
-    frame.times.pack_ms = milliseconds_since(start);
+    frame.times.pack_ms = static_cast<float>(ms_since(start));
 }
 
 struct FrameEncoder::Impl {
@@ -258,7 +254,7 @@ PackedFrame FrameEncoder::encode(RigFrame& frame) {
     if (!frame.disparity.empty()) packed.disparity = impl_->disparity.encode(frame.disparity);
 
     frame.times.pack_ms =
-        milliseconds_since(start) + (is_packed_ahead ? frame.times.pack_ms : 0.0f);
+        static_cast<float>(ms_since(start)) + (is_packed_ahead ? frame.times.pack_ms : 0.0f);
     frame.published = TaiClock::now();
     header.mutable_times()->set_pack_ms(sendable_ms(frame.times.pack_ms));
     header.set_published_tai_ns(to_ns(frame.published));

@@ -10,10 +10,6 @@
 namespace vantage {
 namespace {
 
-float milliseconds_since(MonotonicTime start) {
-    return std::chrono::duration<float, std::milli>(MonotonicClock::now() - start).count();
-}
-
 std::string chosen_matcher(const RigConfig& config) {
     if (config.match.matcher == exact_matcher && config.source.kind != "virtual")
         fail(
@@ -133,7 +129,7 @@ double GpuStage::match_dark_frame_ms() {
     RigFrame unused;
     const MonotonicTime start = MonotonicClock::now();
     rectify_and_match(dark, unused);
-    return milliseconds_since(start);
+    return ms_since(start);
 }
 
 std::chrono::nanoseconds GpuStage::frame_limit() const {
@@ -190,8 +186,8 @@ RigFrame GpuStage::process(StereoFrame frame) {
     result.times.match_ms =
         matcher_ && match_timer_.is_of_gpu()
             ? static_cast<float>(match_timer_.wait_ms())
-            : std::max(0.0F,
-                       milliseconds_since(start) - result.times.rectify_ms - result.times.pack_ms);
+            : std::max(0.0F, static_cast<float>(ms_since(start)) - result.times.rectify_ms -
+                                 result.times.pack_ms);
 
     result.synchronized = frame.synchronized;
     result.trigger_index = frame.trigger_index;

@@ -139,6 +139,12 @@ struct RigDaemon::Impl {
                     const std::vector<LentPicture>& specimens);
     void note_compiling(const ProgramProgress& progress);
     std::vector<std::string> report() const;
+
+    /// One line about this rig's own recording; empty if none is configured.
+    std::string keeps_line() const {
+        if (keeper) return keeper->line();
+        return config.keep.folder.empty() ? "" : keeps_nothing;
+    }
     void publish();
     void keep_in_step(const RigHealth& facts);
     void announce(std::uint64_t first_pulse);
@@ -311,10 +317,7 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
             clock = read_ptp();
             tai_offset_s = read_kernel_clock().tai_offset_s;
             RigHealth health = monitor.look(publisher.status().counters, MonotonicClock::now());
-            if (keeper)
-                health.keeps = keeper->line();
-            else if (!config.keep.folder.empty())
-                health.keeps = keeps_nothing;
+            health.keeps = keeps_line();
             {
                 const std::lock_guard lock(mutex);
                 health.starting = starting;
@@ -596,12 +599,8 @@ DaemonStatus RigDaemon::status() const {
     status.source_counters.push_back({"gpu_restarts", impl_->gpu_restarts});
     status.starting = impl_->starting;
     status.sync = impl_->sync;
-    if (impl_->keeper) {
-        status.keeps = impl_->keeper->line();
-        status.kept_files_erased = impl_->keeper->erased();
-    } else if (!impl_->config.keep.folder.empty()) {
-        status.keeps = keeps_nothing;
-    }
+    status.keeps = impl_->keeps_line();
+    if (impl_->keeper) status.kept_files_erased = impl_->keeper->erased();
     status.capture_ms = impl_->capture_ms.summary();
     status.rectify_ms = impl_->rectify_ms.summary();
     status.match_ms = impl_->match_ms.summary();
