@@ -21,9 +21,9 @@ struct CornerFit {
 /// Fits  mean + slope . d + contrast * erf(d1 / (sqrt2 blur)) * erf(d2 / (sqrt2 blur))  by
 /// Levenberg-Marquardt to the pixels within radius_px of `start`; d1 and d2 are the distances from
 /// the two edges. Straight lines stay straight in perspective, so that the crossing is unbiased for
-/// tilted boards. Every pixel of the edges counts, unlike in a search for orthogonal gradients.
-/// `along_row` and `along_column` are the approximate directions of the edges. Empty if the fit
-/// diverges or there is no corner.
+/// tilted boards. The fit uses every pixel of the edges; a search for orthogonal gradients does
+/// not. `along_row` and `along_column` are the approximate directions of the edges. Empty if the
+/// fit diverges or there is no corner.
 std::optional<CornerFit> fit_corner(const GreyImage& picture, const Eigen::Vector2d& start,
                                     const Eigen::Vector2d& along_row,
                                     const Eigen::Vector2d& along_column, double radius_px);

@@ -92,7 +92,7 @@ CameraPrior prior_of(const StageRig& rig, bool is_left) {
     return prior;
 }
 
-/// Of the poses that the rigs give a body, chooses the one with the smallest error over all rigs.
+/// Chooses, for each body, the pose with the smallest error over all rigs.
 void place_bodies(const StageStart& start, const Placements& placements, Bundle& bundle) {
     constexpr double most_px = 50;
     std::vector<std::vector<const BundleView*>> views_of(bundle.boards.size());

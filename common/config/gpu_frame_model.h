@@ -7,8 +7,9 @@
 
 namespace vantage {
 
-/// What a rig's frame costs on a Raspberry Pi's GPU at best: lower bounds from the instructions
-/// that its compiler emits and the bytes that the passes move (docs/results/v3d.md, tools/v3d.sh).
+/// Lower bounds of the time that a Raspberry Pi's GPU takes for a rig's frame, from the
+/// instructions that its compiler emits and the bytes that the passes move (docs/results/v3d.md,
+/// tools/v3d.sh).
 struct GpuFrameModel {
     /// Time of a preset: a part for each pixel, and one for each pixel and disparity.
     struct Preset {

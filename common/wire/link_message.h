@@ -58,8 +58,8 @@ struct RigHealth {
     float calibration_row_rms_px = 0;       ///< row error after rectification at calibration
     std::string program_version;            ///< of the daemon, "0.2.0"; empty: not reported
     std::uint64_t refused_connections = 0;  ///< not from hosts, at the rig and at relays
-    /// What the rig still does before it can send frames, "compiling shaders, 7 of 21"; empty when
-    /// it is ready.
+    /// Step of the start-up before the rig can send frames, "compiling shaders, 7 of 21"; empty
+    /// when it is ready.
     std::string starting;
     std::string keeps;  ///< one line about the rig's own recording and its erasures; empty: none
 

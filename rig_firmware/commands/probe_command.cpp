@@ -58,7 +58,7 @@ void print_for_machines(const ProbeReport& report) {
 CommandEntry probe_command_entry() {
     return {[](CLI::App& program) {
         auto* command = program.add_subcommand(
-            "probe", "What this computer has: cameras, GPIO, GPU, clocks; and what is unfit");
+            "probe", "List this computer's cameras, GPIO, GPU and clocks, and name faults");
         auto as_json = std::make_shared<bool>(false);
         command->add_flag("--json", *as_json, "for machines");
         command->callback([as_json] {

@@ -148,11 +148,11 @@ Flicker of_hh4(const std::vector<FilmFrame>& film) {
 
 void print_still_film_table(const ShaderLibrary& library) {
     fmt::print(
-        "Films of the virtual stage, {} frames a second of {}x{}x{}, a second after their start: "
-        "sensor noise of {} grey levels, exposure that drifts by {} %, performers who move. Each "
-        "frame by itself, and denoised as the daemon does it. Of the pixels that stand still, in "
-        "percent: those that differ by more than a pixel of disparity "
-        "from one frame to the next / those that do within {} frames\n\n"
+        "Films of the virtual stage at {} frames per second, {}x{} with {} disparities, one second "
+        "after their start. The sensor noise is {} grey levels, the exposure drifts by {} %, and "
+        "performers move. Frames are matched each by itself, or denoised over time as the daemon "
+        "does it. The table has shares of the still pixels in percent: those whose disparity "
+        "changes by more than a pixel from one frame to the next / within {} frames.\n\n"
         "| scene | HH4 | quality | denoised | balanced | denoised | fast | denoised |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
         frames_per_s, size_px.width, size_px.height, disparities, noise_sigma, 100 * drift,

@@ -67,7 +67,7 @@ std::string own_matching_table(const ShaderLibrary& library) {
     std::string text = fmt::format(
         "\n### The virtual stage, depth by the rigs' own matching, {}x{}\n\n"
         "Four rigs, sensor noise of {:g} grey level; `fused` midway between the middle two, from "
-        "exact depth and from what `quality` finds. Wavering: standard deviation along time on a "
+        "exact depth and from what `quality` finds. Flicker: standard deviation along time on a "
         "still stage against that of a camera with the same noise.\n\n"
         "| set | rigs apart (degrees) | exact: PSNR dB | SSIM | own: PSNR dB | SSIM | coverage | "
         "flicker |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",
