@@ -18,7 +18,6 @@ CHIPS = {
 }
 LIMITS = dict(spills=16, compile_ms=5000, threads=2, growth=1.03)
 LANES, CYCLES_PER_BATCH = 16, 4  # a QPU issues an instruction for 16 lanes in 4 cycles
-FEW_LANES = 'perm_rows perm_columns perm_weight sgm_path left_right_check row_fill row_streaks'.split()
 
 INSTRUCTION = re.compile(r'^0x[0-9a-f]{16} (.*)$')
 LISTING = re.compile(r'^(MESA_SHADER_\w+)(?:/\w+)? prog \d+/\d+ QPU:')
@@ -117,6 +116,7 @@ def work(program, shape, groups):
     along = defines.get('ALONG') == '1'
     both = defines.get('BOTH') == '1'
     steps = int(defines.get('STEPS', 16))
+    slabs = int(defines.get('SLABS', 1))
     if file.endswith('.frag'):
         return up(W * H, LANES), []
     table = {
@@ -138,13 +138,14 @@ def work(program, shape, groups):
         'perm_columns': (groups[0], [up(h, 4)] * 2),
         'perm_columns_narrow': (groups[0], [up(h, 8), up(h, 4)]),
         'sgm_path': (groups[0], [h, h] if along else [w, w]),
+        'sgm_path_narrow': (groups[0], [slabs, h if along else w, slabs] * 2),
         'left_right_check': (up(h, LANES), [coarse] * 3),
         'supported_disparity': (up(coarse, LANES) * up(h, 8), [8]),
         'supported_disparity_narrow': (up(coarse, LANES) * up(h, 8), [8, 5]),
         'row_fill': (up(h, LANES), [coarse, 0, coarse]),
         'disparity_smooth': (up(coarse, LANES) * up(h, 8), [8, 4] if along else [8]),
         'disparity_median': (up(coarse, LANES) * up(h, 8), [8]),
-        'stereo_upsample': (up(coarse, LANES) * h, [2]),
+        'stereo_upsample': (up(coarse, LANES) * h, [2, 2]),
     }
     if name in table:
         return table[name]
@@ -203,7 +204,7 @@ PASS = {
 
 def pass_of(program):
     name = program.file.rsplit('.', 1)[0]
-    if name == 'sgm_path':
+    if name.startswith('sgm_path'):
         return 'column paths' if program.defines.get('ALONG') == '1' else 'row paths'
     if name == 'stereo_features' and program.defines.get('SHIFTED') == '1':
         return 'row shift'
