@@ -36,6 +36,7 @@ uniform int plane;
 uniform int first_row;
 uniform int sum_rows;
 uniform int path_lines;  // lines of a slab of paths
+uniform int first_line;
 
 const uint ones = 0x01010101u, high = 0x80808080u, low_bytes = 0x00ff00ffu;
 const uint edge = uint(P2) * ones;
@@ -93,7 +94,7 @@ void take(int slab, uvec4 q, uvec4 s) {
     }
 
 void main() {
-    line = int(gl_GlobalInvocationID.x);
+    line = first_line + int(gl_GlobalInvocationID.x);
     slabs = SLABS + min(plane, 0);  // SLABS, and loops that the compiler does not unroll
 #if ALONG == 0
     int y = line + first_row, count = size.x;

@@ -66,20 +66,22 @@ void SgmCostPass::run(PassProfiler& profiler, const FeaturePass& features) {
 }
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                 const SgmSettings& settings, LaneMapping lanes)
-    : SgmPass(library, layout, disparities, settings, nullptr, nullptr, lanes) {}
+                 const SgmSettings& settings, LaneMapping lanes, double max_operations)
+    : SgmPass(library, layout, disparities, settings, nullptr, nullptr, lanes, max_operations) {}
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
                  const SgmSettings& settings, const Buffer& scratch, const Buffer& for_winners,
                  LaneMapping lanes)
-    : SgmPass(library, layout, disparities, settings, &scratch, &for_winners, lanes) {}
+    : SgmPass(library, layout, disparities, settings, &scratch, &for_winners, lanes,
+              max_dispatch_operations) {}
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
                  const SgmSettings& settings, const Buffer* scratch, const Buffer* for_winners,
-                 LaneMapping lanes)
+                 LaneMapping lanes, double max_operations)
     : layout_(layout),
       disparities_(disparities),
       settings_(settings),
+      max_operations_(max_operations),
       sum_rows_(settings.columns ? layout.height_px : band_rows(layout.height_px)),
       rows_in_memory_(lanes == LaneMapping::disparities &&
                       slabs_of(disparities) > most_decided_slabs),
@@ -112,7 +114,10 @@ int SgmPass::path_lines() const {
 }
 
 void SgmPass::run(PassProfiler& profiler, const Buffer& costs) {
-    const auto run_paths = [&](Program& program, bool is_in_memory, int lines, int first_row) {
+    const std::size_t volume = volume_size(layout_, disparities_);
+    const double operations = static_cast<double>(volume) * 2 * 11;
+    const auto run_paths = [&](Program& program, bool is_in_memory, int lines, int first_row,
+                               double line_operations) {
         program.use();
         program.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
         program.set("plane", static_cast<int>(layout_.block_pixels()));
@@ -125,17 +130,23 @@ void SgmPass::run(PassProfiler& profiler, const Buffer& costs) {
             program.set("path_lines", path_lines());
             paths_->bind_storage(3);
         }
-        program.dispatch_over(lines, 1);
+        constexpr int lanes_of_group = 16;
+        dispatch_in_parts(lines, lanes_of_group, line_operations * lines, max_operations_,
+                          [&](int first, int count) {
+                              program.set("first_line", first);
+                              program.dispatch_over(count, 1);
+                          });
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    const std::size_t volume = volume_size(layout_, disparities_);
-    const double operations = static_cast<double>(volume) * 2 * 11;
     if (settings_.columns)
-        profiler.run("column paths", {volume * 5, operations},
-                     [&] { run_paths(columns_, columns_in_memory_, layout_.width_px, 0); });
+        profiler.run("column paths", {volume * 5, operations}, [&] {
+            run_paths(columns_, columns_in_memory_, layout_.width_px, 0,
+                      operations / layout_.width_px);
+        });
     profiler.run("row paths", {volume * (settings_.columns ? 5 : 4), operations * 1.3}, [&] {
         for (int row = 0; row < layout_.height_px; row += sum_rows_)
-            run_paths(rows_, rows_in_memory_, std::min(sum_rows_, layout_.height_px - row), row);
+            run_paths(rows_, rows_in_memory_, std::min(sum_rows_, layout_.height_px - row), row,
+                      operations * 1.3 / layout_.height_px);
     });
 }
 

@@ -6,6 +6,7 @@
 #include "common/gl/objects/program.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/dispatch_parts.h"
 #include "rig_firmware/stereo/volume/lane_mapping.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
@@ -44,9 +45,11 @@ class SgmCostPass {
 /// processing by semiglobal matching and mutual information", PAMI 30 (2008).
 class SgmPass {
   public:
-    /// lanes: changes the time that it takes, and no bit of the result.
+    /// lanes and max_operations (of one dispatch) change the time that it takes, and no bit of the
+    /// result.
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-            const SgmSettings& settings, LaneMapping lanes = lane_mapping_here());
+            const SgmSettings& settings, LaneMapping lanes = lane_mapping_here(),
+            double max_operations = max_dispatch_operations);
     /// Keeps its sums in `scratch` and its winners in `for_winners` if they fit: buffers that
     /// outlive this and hold nothing of worth from run() on, until the winners were read.
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
@@ -67,13 +70,14 @@ class SgmPass {
   private:
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
             const SgmSettings& settings, const Buffer* scratch, const Buffer* for_winners,
-            LaneMapping lanes);
+            LaneMapping lanes, double max_operations);
     /// Most lines that one dispatch walks side by side.
     int path_lines() const;
 
     StereoLayout layout_;
     int disparities_;
     SgmSettings settings_;
+    double max_operations_;
     int sum_rows_;
     bool rows_in_memory_, columns_in_memory_;  ///< see sgm_path_narrow.comp
     Program rows_;

@@ -9,6 +9,8 @@
 namespace vantage {
 namespace {
 
+constexpr double operations_of_part = 1e5;  // so few that most sizes take several dispatches
+
 class SgmPassTest : public EnginePassTest {
   protected:
     SgmPassTest() {
@@ -45,7 +47,8 @@ TEST_P(SgmPassTest, FourPathsOverTheMatchingCostAgreeWithTheCpuBitForBit) {
     expect_equal_costs(cost.costs(), layout_, costs);
     const Winners winners = sgm_winners(costs, settings);
     for (const LaneMapping lanes : {LaneMapping::pixels, LaneMapping::disparities}) {
-        SgmPass paths(library_, layout_, GetParam().disparities, settings, lanes);
+        SgmPass paths(library_, layout_, GetParam().disparities, settings, lanes,
+                      operations_of_part);
         paths.run(profiler_, cost.costs());
         expect_winners(paths.winners(), winners);
     }
@@ -61,7 +64,8 @@ TEST_P(SgmPassTest, RowPathsOverPermeabilitySumsAgreeWithTheCpuBitForBit) {
     expect_equal_costs(perm.costs(), layout_, costs);
     const Winners winners = sgm_winners(costs, settings);
     for (const LaneMapping lanes : {LaneMapping::pixels, LaneMapping::disparities}) {
-        SgmPass paths(library_, layout_, GetParam().disparities, settings, lanes);
+        SgmPass paths(library_, layout_, GetParam().disparities, settings, lanes,
+                      operations_of_part);
         paths.run(profiler_, perm.costs());
         expect_winners(paths.winners(), winners);
     }
