@@ -44,7 +44,7 @@ std::string default_matcher(MatchPreset preset) {
         case MatchPreset::balanced:
             return "coarse";
         case MatchPreset::quality:
-            return "perm_sgm";
+            return "row_pairs";
     }
     return "coarse";
 }

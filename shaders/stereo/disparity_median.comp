@@ -1,7 +1,6 @@
 // 3x3 median of the disparities, in the lower half of each word; confidence in the upper half stays. A pixel that is
 // unknown stays so; an unknown neighbour votes as the centre does. An invocation makes four pixels of ROWS rows: their
 // neighbours come with few loads.
-#define MEDIAN_OF uvec4
 #include "stereo_common.glsl"
 #include "stereo_median9.glsl"
 
@@ -33,15 +32,22 @@ uint beside(int y, int column, uvec4 words, bool left) {
 
 // A row's disparities of columns x - 1 .. x + 4.
 struct Row {
-    uvec4 before, here, after;
+    uint left;
+    uvec4 here;
+    uint right;
 };
 Row row_at(int y) {
     uvec4 words = words_at(y);
-    uint left = beside(y, x - 1, words, true), right = beside(y, x + 4, words, false);
-    return Row(uvec4(left, words.xyz) & 0xffffu, words & 0xffffu, uvec4(words.yzw, right) & 0xffffu);
+    return Row(beside(y, x - 1, words, true) & 0xffffu, words & 0xffffu, beside(y, x + 4, words, false) & 0xffffu);
 }
 
-uvec4 votes(uvec4 d, uvec4 centre) { return d + centre * uvec4(equal(d, uvec4(0u))); }
+uint vote(uint d, uint centre) { return d != 0u ? d : centre; }
+// One pixel after the other, which takes fewer registers than four at once.
+#define MEDIAN(l, m, r)                                                                                                 \
+    (here.m == 0u ? 0u                                                                                                  \
+                  : median9(vote(above.l, here.m), vote(above.m, here.m), vote(above.r, here.m), vote(here.l, here.m),  \
+                            here.m, vote(here.r, here.m), vote(below.l, here.m), vote(below.m, here.m),                 \
+                            vote(below.r, here.m)))
 
 void main() {
     x = int(gl_GlobalInvocationID.x) * 4;
@@ -50,12 +56,13 @@ void main() {
     Row above, here = row_at(first_row - 1), below = row_at(first_row);
     for (int y = first_row; y < min(first_row + ROWS, size.y); ++y) {
         above = here, here = below, below = row_at(y + 1);
-        uvec4 centre = here.here;
-        uvec4 p0 = votes(above.before, centre), p1 = votes(above.here, centre), p2 = votes(above.after, centre);
-        uvec4 p3 = votes(here.before, centre), p4 = centre, p5 = votes(here.after, centre);
-        uvec4 p6 = votes(below.before, centre), p7 = votes(below.here, centre), p8 = votes(below.after, centre);
         int at = (y * stride + x) >> 2;
-        uvec4 known = uvec4(notEqual(centre, uvec4(0u)));
-        medians[at] = (disparity[at] & 0xffff0000u) | median9(p0, p1, p2, p3, p4, p5, p6, p7, p8) * known;
+        uvec4 confidence = disparity[at] & 0xffff0000u;
+        uvec4 median;
+        median.x = MEDIAN(left, here.x, here.y);
+        median.y = MEDIAN(here.x, here.y, here.z);
+        median.z = MEDIAN(here.y, here.z, here.w);
+        median.w = MEDIAN(here.z, here.w, right);
+        medians[at] = confidence | median;
     }
 }

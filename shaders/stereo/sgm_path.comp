@@ -37,6 +37,7 @@ uniform int plane;  // pixels of a slab of costs
 // The sums' buffer has so many rows, the first of which is row first_row of the picture.
 uniform int first_row;
 uniform int sum_rows;
+uniform int first_line;  // of this run: a row counted from first_row, or a column
 
 const uint ones = 0x01010101u, high = 0x80808080u, low_bytes = 0x00ff00ffu;
 const uint edge = uint(P2) * ones;
@@ -101,14 +102,14 @@ void start() {
 
 void main() {
 #if ALONG == 0
-    int y = int(gl_GlobalInvocationID.x) + first_row, count = size.x;
+    int y = int(gl_GlobalInvocationID.x) + first_line + first_row, count = size.x;
     if (y >= min(first_row + sum_rows, size.y)) return;
 #define GO_TO(i)                              \
     int pixel = block_at(i, y, size.y);       \
     from = pixel;                             \
     at = block_at(i, y - first_row, sum_rows) * SLABS;
 #else
-    int x = int(gl_GlobalInvocationID.x), count = size.y;
+    int x = int(gl_GlobalInvocationID.x) + first_line, count = size.y;
     if (x >= size.x) return;
 #define GO_TO(i)                              \
     int pixel = block_at(x, i, size.y);       \

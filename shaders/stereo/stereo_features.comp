@@ -10,7 +10,7 @@
 #define ROWS 8
 #endif
 #ifndef ROW_STEP
-#define ROW_STEP 1  // 2: makes the words of even rows only; ROWS is even
+#define ROW_STEP 1  // 2: makes the words of one row of two, the upper and the lower one in turn; ROWS is a multiple of 4
 #endif
 
 // 1: makes the words anew if votes say that the picture lies lower or higher than it should, as if it did not.
@@ -83,22 +83,23 @@ void main() {
     if (shift == 0) return;
 #endif
     if (column + 2 >= row_words) {
-        for (int y = first_row; y < min(first_row + ROWS, size.y); y += ROW_STEP)
+        for (int y = first_row; y < min(first_row + ROWS, size.y); ++y)
             features[y * (stride / 4) + column] = uvec4(0u);
         return;
     }
+    uvec3 a, b = row_at(first_row - 2, column), c = row_at(first_row - 1, column), d, e;
 #if ROW_STEP == 1
-    uvec3 a, b = row_at(first_row - 2, column), c = row_at(first_row - 1, column), d = row_at(first_row, column);
-    uvec3 e = row_at(first_row + 1, column);
-#else
-    uvec3 a, b, c = row_at(first_row - 2, column), d = row_at(first_row - 1, column), e = row_at(first_row, column);
-#endif
-    for (int y = first_row; y < min(first_row + ROWS, size.y); y += ROW_STEP) {
-#if ROW_STEP == 1
+    d = row_at(first_row, column), e = row_at(first_row + 1, column);
+    for (int y = first_row; y < min(first_row + ROWS, size.y); ++y) {
         a = b, b = c, c = d, d = e;
 #else
-        a = c, b = d, c = e;
-        d = row_at(y + 1, column);
+    // Rows 0, 3, 4, 7 and so on; where the last pair has no lower row, its upper one.
+    for (int next = first_row; next < first_row + ROWS && (next & ~1) < size.y; next += (next & 1) == 0 ? 3 : 1) {
+        bool is_upper = (next & 1) == 0;
+        int y = min(next, size.y - 1);
+        a = is_upper ? b : d, b = is_upper ? c : e;
+        if (y < next) a = row_at(y - 2, column), b = row_at(y - 1, column);
+        c = row_at(y, column), d = row_at(y + 1, column);
 #endif
         e = row_at(y + 2, column);
         uint bright = ~c.y, low = c.y & ~high;

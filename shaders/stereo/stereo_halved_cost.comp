@@ -1,6 +1,6 @@
 // Matching cost at half the size that sees every detail of the full one: the words compared are those of full-size
-// pixels, (2x + 1, 2y) and, with BOTH, (2x, 2y + 1) of each 2x2, and disparity d stands for 2d - 1, 2d and 2d + 1 there,
-// of which the best counts. A byte a disparity in the order that perm_rows.comp takes (see perm_common.glsl). An invocation
+// pixels of each 2x2, and disparity d stands for 2d - 1, 2d and 2d + 1 there, of which the best counts. With BOTH they
+// are (2x + 1, 2y) and (2x, 2y + 1), else the upper right one in even rows of 2x2 and the lower right one in odd rows. A byte a disparity in the order that perm_rows.comp takes (see perm_common.glsl). An invocation
 // walks STEPS times four pixels of a row with one slab of 16 disparities: the right-hand words slide along.
 #include "perm_common.glsl"
 
@@ -18,7 +18,8 @@ layout(std430, binding = 2) writeonly buffer Costs { uvec4 costs[]; };
 uniform ivec2 size;       // half-size
 uniform ivec2 fine_size;
 uniform int fine_stride;
-uniform int plane;  // pixels of a slab of costs
+uniform int plane;      // pixels of a slab of costs
+uniform int first_row;  // of this run
 
 // Full-size words of the upper and the lower row of 2x2, of even and of odd columns. Word i of a step at column x
 // belongs to half-size column x - first_disparity - 16 + i.
@@ -69,11 +70,16 @@ uint before_first;
     costs[at + k] = whole(uvec4(FOUR(u, l, k, 0), FOUR(u, l, k, 2), FOUR(u, l, k, 8), FOUR(u, l, k, 10)));
 
 void main() {
-    int x = int(gl_GlobalInvocationID.y) * 4 * STEPS, y = int(gl_GlobalInvocationID.x);
+    int x = int(gl_GlobalInvocationID.y) * 4 * STEPS, y = first_row + int(gl_GlobalInvocationID.x);
     int slab = int(gl_GlobalInvocationID.z);
     if (x >= size.x || y >= size.y) return;
     before_first = slab == 0 ? 31u : 0u;
-    int upper = 2 * y * fine_stride, lower = min(2 * y + 1, fine_size.y - 1) * fine_stride, last = fine_stride - 4;
+#if BOTH
+    int upper_row = 2 * y;
+#else
+    int upper_row = min(2 * y + (y & 1), fine_size.y - 1);
+#endif
+    int upper = upper_row * fine_stride, lower = min(2 * y + 1, fine_size.y - 1) * fine_stride, last = fine_stride - 4;
     int first = x - 16 * slab;
     take(upper, lower, first - 16);
     slide();

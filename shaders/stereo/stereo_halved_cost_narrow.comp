@@ -1,8 +1,8 @@
 // The costs of stereo_halved_cost.comp, bit for bit, for GPUs with few registers per lane (Raspberry Pi's V3D).
 // A lane computes two neighbouring pixels and half a slab (8 disparities). Lanes lie along the row, so that
 // neighbouring lanes read neighbouring words. Right-hand words arrive four at a time, and only the cost of the
-// previous odd column is kept. With BOTH, the upper and the lower row of each 2x2 run through the same loop body,
-// which keeps the program small enough for the instruction cache.
+// previous odd column is kept. With BOTH, the upper right pixels of each 2x2 come first, and the lower left ones in a
+// second run, which leaves the means.
 #define LANE_MAPPING 1  // LANES_DISPARITIES
 #include "perm_common.glsl"
 
@@ -16,11 +16,17 @@
 layout(local_size_x = LANES) in;
 layout(std430, binding = 0) readonly buffer LeftFeatures { uint left_features[]; };
 layout(std430, binding = 1) readonly buffer RightFeatures { uvec4 right_features[]; };
-layout(std430, binding = 2) writeonly buffer Costs { uvec2 costs[]; };
+layout(std430, binding = 2) buffer Costs { uvec2 costs[]; };
 uniform ivec2 size;  // of the half-size grid
 uniform ivec2 fine_size;
 uniform int fine_stride;
-uniform int plane;  // pixels of a slab of costs
+uniform int plane;      // pixels of a slab of costs
+uniform int first_row;  // of this run
+#if BOTH
+uniform bool is_lower;  // whether the lower left pixels join the upper right ones, in a second run
+#else
+const bool is_lower = false;
+#endif
 
 // Four right-hand words from a column that is a multiple of four. Before the picture its first column repeats.
 uvec4 right_at(int row, int column) {
@@ -41,64 +47,57 @@ uvec4 right_at(int row, int column) {
 uvec4 block;  // the last one that was read of the right-hand row
 
 // The next four words to the left. They start one column earlier in the lower row, whose left pixels do.
-uvec4 next_four(int row, int column, bool is_upper) {
+uvec4 next_four(int row, int column) {
     uvec4 to_the_right = block;
     block = right_at(row, column);
-#if BOTH
-    return is_upper ? to_the_right : uvec4(block.w, to_the_right.xyz);
-#else
-    return to_the_right;
-#endif
+    return is_lower ? uvec4(block.w, to_the_right.xyz) : to_the_right;
 }
 
-// Costs of left-hand word a against columns from `column` to the left, and of b two columns further right. Disparities 0
-// to 3, then 4 to 7.
-uvec4 costs_of(int row, int column, uint a, uint b, uint before_first, bool is_upper) {
-    block = right_at(row, column + 4);
-    uvec4 sum = uvec4(0u), w = next_four(row, column, is_upper), v = next_four(row, column - 4, is_upper);
-    uint previous_a = max(cost_of(a, v.z), before_first), previous_b = max(cost_of(b, w.x), before_first);
-    STEP(0, 0, v.y, v.x, v.w, v.z)
-    w = v, v = next_four(row, column - 8, is_upper);
-    STEP(1, 0, v.w, v.z, w.y, w.x)
-    STEP(2, 0, v.y, v.x, v.w, v.z)
-    w = v, v = next_four(row, column - 12, is_upper);
-    STEP(3, 0, v.w, v.z, w.y, w.x)
-    STEP(0, 8, v.y, v.x, v.w, v.z)
-    w = v, v = next_four(row, column - 16, is_upper);
-    STEP(1, 8, v.w, v.z, w.y, w.x)
-    STEP(2, 8, v.y, v.x, v.w, v.z)
-    w = v, v = next_four(row, column - 20, is_upper);
-    STEP(3, 8, v.w, v.z, w.y, w.x)
-    return sum;
-}
+// Always true. A condition ends a block of code that the compiler puts into an order of its own, and so keeps the words of
+// later steps out of the registers.
+#define IN_ORDER if (plane > 0)
 
 void main() {
     // A workgroup covers LANES rows of 4 * STEPS columns, one row after the other.
-    int first_row = int(gl_WorkGroupID.x) * LANES, lane = int(gl_LocalInvocationID.x);
+    int first_y = first_row + int(gl_WorkGroupID.x) * LANES, lane = int(gl_LocalInvocationID.x);
     int first_column = int(gl_WorkGroupID.y) * 4 * STEPS, slab = int(gl_WorkGroupID.z), part = lane & 1;
     // There is no disparity -1.
     uint before_first = slab + part == 0 ? 31u : 0u;
-    int end_row = min(first_row + LANES, size.y), end = min(first_column + 4 * STEPS, size.x);
+    int end_row = min(first_y + LANES, size.y), end = min(first_column + 4 * STEPS, size.x);
     int last = fine_stride - 1, shift = 32 * slab + 16 * part;
-    for (int y = first_row; y < end_row; ++y) {
-        for (int x = first_column + (lane & ~1); x < end; x += LANES) {
-            int row = 2 * y * fine_stride;
+    for (int y = first_y; y < end_row; ++y) {
 #if BOTH
-            uvec4 sum = uvec4(0u);
-            int rows = 2 + min(plane, 0);  // 2, and a loop that the compiler does not unroll
-            for (int i = 0; i < rows; ++i) {
-                bool is_upper = i == 0;
-                int column = 2 * x + 1 - i;
-                sum += costs_of(row, 2 * x - shift, left_features[row + min(column, last)],
-                                left_features[row + min(column + 2, last)], before_first, is_upper);
-                row = min(2 * y + 1, fine_size.y - 1) * fine_stride;
-            }
-            sum = ((sum + 0x01010101u) >> 1) & 0x7f7f7f7fu;
+        int row = (is_lower ? min(2 * y + 1, fine_size.y - 1) : 2 * y) * fine_stride;
 #else
-            uvec4 sum = costs_of(row, 2 * x - shift, left_features[row + min(2 * x + 1, last)],
-                                 left_features[row + min(2 * x + 3, last)], before_first, true);
+        // The upper row of a 2x2, the lower one of the next below.
+        int row = min(2 * y + (y & 1), fine_size.y - 1) * fine_stride;
 #endif
+        for (int x = first_column + (lane & ~1); x < end; x += LANES) {
+            int left_column = is_lower ? 2 * x : 2 * x + 1, column = 2 * x - shift;
+            uint a = left_features[row + min(left_column, last)], b = left_features[row + min(left_column + 2, last)];
+            // Columns from `column` to the left for a, and two columns further right for b. Disparities 0 to 3, then 4
+            // to 7.
+            block = right_at(row, column + 4);
+            uvec4 sum = uvec4(0u), w = next_four(row, column), v = next_four(row, column - 4);
+            uint previous_a = max(cost_of(a, v.z), before_first), previous_b = max(cost_of(b, w.x), before_first);
+            STEP(0, 0, v.y, v.x, v.w, v.z)
+            w = v, v = next_four(row, column - 8);
+            STEP(1, 0, v.w, v.z, w.y, w.x)
+                STEP(2, 0, v.y, v.x, v.w, v.z)
+                w = v, v = next_four(row, column - 12);
+                STEP(3, 0, v.w, v.z, w.y, w.x)
+            IN_ORDER {
+                STEP(0, 8, v.y, v.x, v.w, v.z)
+                w = v, v = next_four(row, column - 16);
+                STEP(1, 8, v.w, v.z, w.y, w.x)
+                STEP(2, 8, v.y, v.x, v.w, v.z)
+                w = v, v = next_four(row, column - 20);
+                STEP(3, 8, v.w, v.z, w.y, w.x)
+            }
             int at = (slab * plane + block_at(x, y, size.y)) * 2 + part;
+#if BOTH
+            if (is_lower) sum = ((sum + uvec4(costs[at], costs[at + 2]) + 0x01010101u) >> 1) & 0x7f7f7f7fu;
+#endif
             costs[at] = sum.xy;
             costs[at + 2] = sum.zw;
         }

@@ -70,7 +70,7 @@ uint on_plane(uint here, uint beside, uint beyond) {
 }
 
 // Two pixels of a row.
-uvec2 two(Cross c, bool flat_here, uvec2 luma, int j) {
+uvec2 results(Cross c, bool flat_here, uvec2 luma, int j) {
     uint vertical = j == 0 ? c.above : c.below;
     uvec2 result = uvec2(on_plane(c.here, c.left, vertical), on_plane(c.here, c.right, vertical));
     if (!flat_here)
@@ -100,26 +100,28 @@ void main() {
     uint after = x + 4 < coarse_size.x ? disparities_at(x + 4, y).x : here.w;
     // Each row of luma has a word of its repeated edge before and behind it.
     int word = y * coarse_row_words + (x >> 2) + 1;
-    ivec4 luma_here = ivec4(bytes_of_word(coarse_luma[word]));
-    ivec4 luma_above = ivec4(bytes_of_word(coarse_luma[y > 0 ? word - coarse_row_words : word]));
-    ivec4 luma_below = ivec4(bytes_of_word(coarse_luma[y + 1 < coarse_size.y ? word + coarse_row_words : word]));
-    int luma_before = int(coarse_luma[word - 1] >> 24), luma_after = int(coarse_luma[word + 1] & 255u);
-#define CROSS(k, left, right, luma_left, luma_right)                                                      \
-    Cross(here[k], left, right, above[k], below[k], luma_here[k], luma_left, luma_right, luma_above[k], luma_below[k])
-    Cross a = CROSS(0, before, here.y, luma_before, luma_here.y);
-    Cross b = CROSS(1, here.x, here.z, luma_here.x, luma_here.z);
-    Cross c = CROSS(2, here.y, here.w, luma_here.y, luma_here.w);
-    Cross d = CROSS(3, here.z, after, luma_here.z, luma_after);
-    bool a_flat = is_flat(a), b_flat = is_flat(b), c_flat = is_flat(c), d_flat = is_flat(d);
-    for (int j = 0; j < 2; ++j) {
-        int fine_y = 2 * y + j, fine_x = 2 * x;
-        if (fine_y >= fine_size.y) return;
-        int fine_word = fine_y * fine_row_words + (fine_x >> 2) + 1, row = fine_y * fine_stride;
-        int at = (row + fine_x) >> 2;
-        uvec4 luma = bytes_of_word(fine_luma[fine_word]);
-        leave(at, uvec4(two(a, a_flat, luma.xy, j), two(b, b_flat, luma.zw, j)));
-        if (fine_x + 4 >= fine_stride) continue;
-        luma = bytes_of_word(fine_luma[fine_word + 1]);
-        leave(at + 1, uvec4(two(c, c_flat, luma.xy, j), two(d, d_flat, luma.zw, j)));
+    uint luma_here = coarse_luma[word], luma_before = coarse_luma[word - 1] >> 24, luma_after = coarse_luma[word + 1];
+    uint luma_above = coarse_luma[y > 0 ? word - coarse_row_words : word];
+    uint luma_below = coarse_luma[y + 1 < coarse_size.y ? word + coarse_row_words : word];
+    // Two coarse pixels after the other: fewer registers hold what they need.
+    int two = 2 + min(coarse_stride, 0);  // 2, and loops that the compiler does not unroll
+    for (int half_of_word = 0; half_of_word < two; ++half_of_word) {
+        int fine_x = 2 * x + 4 * half_of_word;
+        if (fine_x >= fine_stride) return;
+        Cross a = Cross(here.x, before, here.y, above.x, below.x, int(luma_here & 255u), int(luma_before & 255u),
+                        int(byte_of(luma_here, 1)), int(luma_above & 255u), int(luma_below & 255u));
+        Cross b = Cross(here.y, here.x, here.z, above.y, below.y, int(byte_of(luma_here, 1)), int(luma_here & 255u),
+                        int(byte_of(luma_here, 2)), int(byte_of(luma_above, 1)), int(byte_of(luma_below, 1)));
+        bool a_flat = is_flat(a), b_flat = is_flat(b);
+        for (int j = 0; j < two; ++j) {
+            int fine_y = 2 * y + j;
+            if (fine_y >= fine_size.y) break;
+            uvec4 luma = bytes_of_word(fine_luma[fine_y * fine_row_words + (fine_x >> 2) + 1]);
+            leave((fine_y * fine_stride + fine_x) >> 2,
+                  uvec4(results(a, a_flat, luma.xy, j), results(b, b_flat, luma.zw, j)));
+        }
+        before = here.y, here.xyz = uvec3(here.zw, after), above.xy = above.zw, below.xy = below.zw;
+        luma_before = byte_of(luma_here, 1);
+        luma_here = (luma_here >> 16) | (luma_after << 16), luma_above >>= 16, luma_below >>= 16;
     }
 }

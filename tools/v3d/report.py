@@ -9,6 +9,7 @@ is exceeded.
 import json
 import re
 import sys
+from math import prod
 from pathlib import Path
 
 # A GPU: QPUs, clock in Hz, and bytes per second read + written (copies measured elsewhere; a Pi 5 reaches 4 to 8 GB/s).
@@ -16,9 +17,8 @@ CHIPS = {
     '42': dict(name='Raspberry Pi 4 (V3D 4.2)', qpus=8, hz=500e6, bytes_per_s=2.5e9),
     '71': dict(name='Raspberry Pi 5 (V3D 7.1)', qpus=12, hz=960e6, bytes_per_s=4.0e9),
 }
-LIMITS = dict(spills=16, compile_ms=5000, threads=2, growth=1.03)
+LIMITS = dict(spills=16, compile_ms=5000, threads=2, growth=1.03, dispatch_ms=100)
 LANES, CYCLES_PER_BATCH = 16, 4  # a QPU issues an instruction for 16 lanes in 4 cycles
-FEW_LANES = 'perm_rows perm_columns perm_weight sgm_path left_right_check row_fill row_streaks'.split()
 
 INSTRUCTION = re.compile(r'^0x[0-9a-f]{16} (.*)$')
 LISTING = re.compile(r'^(MESA_SHADER_\w+)(?:/\w+)? prog \d+/\d+ QPU:')
@@ -38,7 +38,7 @@ class Program:
         self.code = None
 
     def label(self):
-        shown = ('BOTH', 'ALONG', 'ADD', 'SLABS', 'GIVEN', 'KEEP', 'CELL', 'LAST', 'SHIFTED', 'ROW_STEP', 'OF_STREAM', 'FORMAT')
+        shown = ('BOTH', 'ROW_PAIRS', 'ROWS_ONLY', 'ALONG', 'ADD', 'SLABS', 'GIVEN', 'KEEP', 'CELL', 'LAST', 'SHIFTED', 'ROW_STEP', 'OF_STREAM', 'FORMAT')
         return ' '.join(f'{k}={v}' for k, v in self.defines.items() if k in shown)
 
 
@@ -115,8 +115,8 @@ def work(program, shape, groups):
     defines, file = program.defines, program.file
     name = file.rsplit('.', 1)[0]
     along = defines.get('ALONG') == '1'
-    both = defines.get('BOTH') == '1'
     steps = int(defines.get('STEPS', 16))
+    slabs = int(defines.get('SLABS', 1))
     if file.endswith('.frag'):
         return up(W * H, LANES), []
     table = {
@@ -126,31 +126,33 @@ def work(program, shape, groups):
         'stereo_clear': (1, []),
         'row_shift_votes': (up(up(W, 8), LANES) * up(H, 16), [up(D - 1, 4)]),
         'stereo_halve': (up(coarse + 2, LANES) * h * 2, []),
-        'stereo_median_luma': (up(fine + 2, LANES) * H * 2, []),
+        'stereo_median_luma': (up(coarse + 2, LANES) * h * 2, []),
         'stereo_permeability': (up(coarse, LANES) * up(h, 4), [4]),
-        'stereo_halved_cost': (up(h, LANES) * up(w, 4 * steps) * groups[2], [steps]),
-        'stereo_halved_cost_narrow': (up(h, LANES) * up(w, 4 * steps) * groups[2],
-                                      [LANES, up(4 * steps, LANES)] + ([2] if both else [])),
-        'perm_cost_narrow': (up(2 * fine, LANES) * H * groups[2], [2]),
+        'stereo_halved_cost': (prod(groups), [steps]),
+        'stereo_halved_cost_narrow': (prod(groups),
+                                      [LANES, up(4 * steps, LANES)]),
+        'perm_cost': (prod(groups), []),
         'sgm_cost': (up(fine, LANES) * H * groups[2], []),
         'perm_weight': (up(coarse if along else h, LANES), [h, h] if along else [coarse, coarse]),
         'perm_rows': (groups[0], [coarse, coarse]),
         'perm_columns': (groups[0], [up(h, 4)] * 2),
         'perm_columns_narrow': (groups[0], [up(h, 8), up(h, 4)]),
         'sgm_path': (groups[0], [h, h] if along else [w, w]),
+        'sgm_path_narrow': (groups[0], [slabs, h if along else w, slabs] * 2),
         'left_right_check': (up(h, LANES), [coarse] * 3),
         'supported_disparity': (up(coarse, LANES) * up(h, 8), [8]),
         'supported_disparity_narrow': (up(coarse, LANES) * up(h, 8), [8, 5]),
         'row_fill': (up(h, LANES), [coarse, 0, coarse]),
         'disparity_smooth': (up(coarse, LANES) * up(h, 8), [8, 4] if along else [8]),
         'disparity_median': (up(coarse, LANES) * up(h, 8), [8]),
-        'stereo_upsample': (up(coarse, LANES) * h, [2]),
+        'stereo_upsample': (up(coarse, LANES) * h, [2, 2]),
+        'stereo_upsample_rows': (up(coarse, LANES) * h, []),
     }
     if name in table:
         return table[name]
     if name.startswith('path_fill'):
         # The passes over islands are in cells of one pixel where the grid is halved, else of two.
-        cell = int(defines.get('CELL', 1 if w < W else 2))
+        cell = int(defines.get('CELL', 1 if h < H else 2))
         columns, rows = up(up(w, cell), 4), up(h, cell)
         return {
             'path_fill_cells': (up(columns, LANES) * rows, []),
@@ -193,17 +195,17 @@ def dynamic(program, trips, shape):
 PASS = {
     'camera_picture': 'camera', 'rectify': 'rectify', 'stereo_luma': 'luma', 'exposure_gain': 'luma', 'stereo_features': 'census and gradient',
     'stereo_clear': 'row shift', 'row_shift_votes': 'row shift', 'stereo_halve': 'halve', 'stereo_median_luma': 'guide',
-    'stereo_permeability': 'permeability', 'stereo_halved_cost': 'cost', 'stereo_halved_cost_narrow': 'cost', 'perm_cost_narrow': 'cost',
+    'stereo_permeability': 'permeability', 'stereo_halved_cost': 'cost', 'stereo_halved_cost_narrow': 'cost', 'perm_cost': 'cost',
     'sgm_cost': 'cost', 'perm_weight': 'weights', 'perm_rows': 'cost and rows', 'perm_columns': 'columns and winners',
     'perm_columns_narrow': 'columns and winners', 'left_right_check': 'left-right check', 'supported_disparity': 'support',
     'supported_disparity_narrow': 'support', 'row_fill': 'fill', 'disparity_smooth': 'smooth', 'disparity_median': 'median',
-    'row_streaks': 'streaks', 'stereo_upsample': 'upsample', 'stereo_result': 'result', 'temporal_disparity': 'temporal',
+    'row_streaks': 'streaks', 'stereo_upsample': 'upsample', 'stereo_upsample_rows': 'upsample', 'stereo_result': 'result', 'temporal_disparity': 'temporal',
 }
 
 
 def pass_of(program):
     name = program.file.rsplit('.', 1)[0]
-    if name == 'sgm_path':
+    if name.startswith('sgm_path'):
         return 'column paths' if program.defines.get('ALONG') == '1' else 'row paths'
     if name == 'stereo_features' and program.defines.get('SHIFTED') == '1':
         return 'row shift'
@@ -216,12 +218,13 @@ def model(name, runs_folder):
     chip = CHIPS[name.split('_')[0][1:]]
     facts = json.loads((runs_folder / f'{name}.json').read_text())
     programs, runs = parse(runs_folder / f'{name}.err')
-    halved = facts['matcher'] == 'coarse'
+    half_width = facts['matcher'] == 'coarse'
+    half_height = half_width or facts['matcher'] == 'row_pairs'
     W, H = facts['width_px'], facts['height_px']
-    shape = dict(W=W, H=H, D=facts['disparities'], w=up(W, 2) if halved else W, h=up(H, 2) if halved else H)
+    shape = dict(W=W, H=H, D=facts['disparities'], w=up(W, 2) if half_width else W, h=up(H, 2) if half_height else H)
     frames = len({frame for frame, _, _ in runs})
     moved = {p['name']: p['bytes_moved'] for p in facts['passes']}
-    rows, passes = {}, {}
+    rows, passes, longest_ms = {}, {}, 0.0
     for _, number, groups in runs:
         program = programs[number]
         if program.code is None:
@@ -232,7 +235,9 @@ def model(name, runs_folder):
                               dict(program=program, runs=0, lanes=0.0, issue_ms=0.0, round_trips=0.0, compile_ms=0.0))
         row['runs'] += 1 / frames
         row['lanes'] += batches * issued * LANES / frames
-        row['issue_ms'] += up(batches, chip['qpus']) * issued * CYCLES_PER_BATCH / chip['hz'] * 1e3 / frames
+        issue_ms = up(batches, chip['qpus']) * issued * CYCLES_PER_BATCH / chip['hz'] * 1e3
+        row['issue_ms'] += issue_ms / frames
+        longest_ms = max(longest_ms, issue_ms)
         row['round_trips'] += up(batches, chip['qpus'] * min(program.threads, 4)) * trips_in_row / frames
     for program in programs.values():
         row = rows.get((program.file, program.label()))
@@ -248,7 +253,7 @@ def model(name, runs_folder):
         cost['memory_ms'] = cost['bytes'] / chip['bytes_per_s'] * 1e3
         cost['bound_ms'] = max(cost['issue_ms'], cost['memory_ms'])
         bound += cost['bound_ms']
-    return dict(name=name, chip=chip, facts=facts, rows=rows, passes=passes, bound_ms=bound,
+    return dict(name=name, chip=chip, facts=facts, rows=rows, passes=passes, bound_ms=bound, longest_ms=longest_ms,
                 lanes=sum(r['lanes'] for r in rows.values()), bytes=sum(p['bytes'] for p in passes.values()),
                 round_trips=sum(r['round_trips'] for r in rows.values()),
                 compile_ms=sum(r['compile_ms'] for r in rows.values()))
@@ -268,13 +273,14 @@ def document(models, mesa):
            '**Every time is a lower bound.** A pass takes at least the longer of two times. One is the time to issue the instructions that the',
            'compiler emitted, with the loops\' real trip counts, on the QPUs that the pass fills. The other is the time to move the bytes that',
            'the pass reads and writes, each counted once. Texture latency, cache misses, the read-back and the processor\'s part are not in it.',
+           'The *longest run* is that of one program without a break; the kernel of a Raspberry Pi ends runs of 500 ms.',
            'A *round trip* is a wait for the texture and memory unit that cannot overlap with another one of the same lane.', '',
            '## Totals', '',
-           '| GPU | preset, size | lower bound, ms | M lane instructions | MB per frame | round trips, thousands | compile time of all programs, s |',
-           '| --- | --- | --- | --- | --- | --- | --- |']
+           '| GPU | preset, size | lower bound, ms | M lane instructions | MB per frame | round trips, thousands | longest run, ms | compile time of all programs, s |',
+           '| --- | --- | --- | --- | --- | --- | --- | --- |']
     for m in models:
         out.append(f"| {m['chip']['name']} | {title(m)} | {m['bound_ms']:.1f} | {m['lanes'] / 1e6:.0f} | {m['bytes'] / 1e6:.0f} | "
-                   f"{m['round_trips'] / 1e3:.0f} | {m['compile_ms'] / 1e3:.1f} |")
+                   f"{m['round_trips'] / 1e3:.0f} | {m['longest_ms']:.1f} | {m['compile_ms'] / 1e3:.1f} |")
     out += ['', 'Memory rate assumed: ' + ', '.join(f"{c['name']} {c['bytes_per_s'] / 1e9:.1f} GB/s, {c['qpus']} QPUs at {c['hz'] / 1e6:.0f} MHz"
                                                   for c in CHIPS.values()) + '.', '']
     for m in models:
@@ -297,7 +303,7 @@ def faults(models, previous):
     known = {}
     for line in previous.splitlines():
         cells = [c.strip() for c in line.split('|')[1:-1]]
-        if len(cells) == 7 and re.fullmatch(r'[0-9.]+', cells[2]):
+        if len(cells) == 8 and re.fullmatch(r'[0-9.]+', cells[2]):
             known[cells[0], cells[1]] = float(cells[2])
     for m in models:
         where = f"{m['chip']['name']}, {title(m)}"
@@ -310,6 +316,8 @@ def faults(models, previous):
                 yield f"{what} takes {row['compile_ms'] / 1e3:.1f} s to compile, more than {LIMITS['compile_ms'] / 1e3:.0f} s: unroll less"
             if p.threads < LIMITS['threads']:
                 yield f"{what} runs with {p.threads} thread: give a lane less to hold"
+        if m['longest_ms'] > LIMITS['dispatch_ms']:
+            yield f"{where}: a program runs for {m['longest_ms']:.0f} ms at a time, more than {LIMITS['dispatch_ms']} ms: divide it with dispatch_in_parts()"
         before = known.get((m['chip']['name'], title(m)))
         if before is None:
             yield f'{where} is not in the page: write it anew with tools/v3d.sh'

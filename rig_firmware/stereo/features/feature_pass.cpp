@@ -11,7 +11,7 @@ constexpr int rows_an_invocation = 16;
 Program feature_program(const ShaderLibrary& library, FeatureRows rows, bool is_shifted) {
     return Program::compute(library, "stereo_features.comp",
                             {{"ROWS", std::to_string(rows_an_invocation)},
-                             {"ROW_STEP", rows == FeatureRows::even ? "2" : "1"},
+                             {"ROW_STEP", rows == FeatureRows::one_of_two ? "2" : "1"},
                              {"SHIFTED", is_shifted ? "1" : "0"}});
 }
 
@@ -30,7 +30,7 @@ FeaturePass::FeaturePass(const ShaderLibrary& library, const StereoLayout& layou
       left_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
       right_features_(layout.pixels() * 4, GL_DYNAMIC_COPY),
       votes_(8 * 4, GL_DYNAMIC_COPY) {
-    if (rows == FeatureRows::even)
+    if (rows == FeatureRows::one_of_two)
         all_rows_program_ = feature_program(library, FeatureRows::all, false);
 }
 

@@ -11,8 +11,9 @@
 
 namespace vantage {
 
-/// Rows that the matching passes after FeaturePass read.
-enum class FeatureRows { all, even };
+/// Rows that the matching passes after FeaturePass read: all, or one of two, as
+/// HalvedCostSamples::one takes them.
+enum class FeatureRows { all, one_of_two };
 
 /// What the matching passes compare: feature words of both pictures.
 /// If the right picture lies up to two whole rows too low or too high, its words are those of the

@@ -12,10 +12,18 @@ constexpr StereoLayout halved(const StereoLayout& layout) {
     return {(layout.width_px + 1) / 2, (layout.height_px + 1) / 2};
 }
 
-/// Luma and colour at half the size: the mean of 2x2 pixels.
+/// Half of the rows, rounded up.
+constexpr StereoLayout with_half_the_rows(const StereoLayout& layout) {
+    return {layout.width_px, (layout.height_px + 1) / 2};
+}
+
+enum class HalvedSides { both, height };
+
+/// Luma and colour at half the size, the mean of 2x2 pixels, or of half the rows, the mean of two.
 class HalvePass {
   public:
-    HalvePass(const ShaderLibrary& library, const StereoLayout& fine);
+    HalvePass(const ShaderLibrary& library, const StereoLayout& fine,
+              HalvedSides sides = HalvedSides::both);
 
     /// fine_luma: in LumaPass's form.
     void run(PassProfiler& profiler, const Buffer& fine_luma);

@@ -3,22 +3,36 @@
 #include "common/gl/objects/program.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/dispatch_parts.h"
+#include "rig_firmware/stereo/volume/lane_mapping.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
 
-/// Matching costs of every pixel and disparity in the form of PermCosts::given. For GPUs with few
-/// registers per lane, which compute costs and aggregate them in two passes.
+/// What a row of costs stands for.
+enum class CostRows {
+    all,    ///< a row of the pictures
+    pairs,  ///< two rows, of whose costs the mean is taken
+};
+
+/// Matching costs in the form of PermCosts::given, in a pass of their own: where rows are taken in
+/// pairs, and for GPUs with too few registers per lane to compute costs within the aggregation.
 class PermCostPass {
   public:
-    PermCostPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities);
+    /// layout: of the pictures. lanes and max_operations (of one dispatch) change the time that it
+    /// takes, and no bit of the result.
+    PermCostPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
+                 CostRows rows = CostRows::all, LaneMapping lanes = lane_mapping_here(),
+                 double max_operations = max_dispatch_operations);
 
     /// costs: PermPass::costs().
     void run(PassProfiler& profiler, const FeaturePass& features, const Buffer& costs);
 
   private:
-    StereoLayout layout_;
+    StereoLayout layout_, cost_layout_;
     int disparities_;
+    CostRows rows_;
+    double max_operations_;
     Program program_;
 };
 

@@ -15,6 +15,14 @@ int band_rows(int height_px) {
     return (height_px + bands - 1) / bands;
 }
 
+/// Slabs whose values a lane of a GPU with few registers can hold while it sums, and while it looks
+/// for winners as well.
+constexpr int most_summed_slabs = 4, most_decided_slabs = 2;
+
+const char* path_shader(bool in_memory) {
+    return in_memory ? "sgm_path_narrow.comp" : "sgm_path.comp";
+}
+
 std::size_t volume_size(const StereoLayout& layout, int disparities) {
     return layout.block_pixels() *
            static_cast<std::size_t>(slabs_of(disparities) * slab_disparities);
@@ -58,25 +66,33 @@ void SgmCostPass::run(PassProfiler& profiler, const FeaturePass& features) {
 }
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                 const SgmSettings& settings)
-    : SgmPass(library, layout, disparities, settings, nullptr, nullptr) {}
+                 const SgmSettings& settings, LaneMapping lanes, double max_operations)
+    : SgmPass(library, layout, disparities, settings, nullptr, nullptr, lanes, max_operations) {}
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                 const SgmSettings& settings, const Buffer& scratch, const Buffer& for_winners)
-    : SgmPass(library, layout, disparities, settings, &scratch, &for_winners) {}
+                 const SgmSettings& settings, const Buffer& scratch, const Buffer& for_winners,
+                 LaneMapping lanes)
+    : SgmPass(library, layout, disparities, settings, &scratch, &for_winners, lanes,
+              max_dispatch_operations) {}
 
 SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-                 const SgmSettings& settings, const Buffer* scratch, const Buffer* for_winners)
+                 const SgmSettings& settings, const Buffer* scratch, const Buffer* for_winners,
+                 LaneMapping lanes, double max_operations)
     : layout_(layout),
       disparities_(disparities),
       settings_(settings),
+      max_operations_(max_operations),
       sum_rows_(settings.columns ? layout.height_px : band_rows(layout.height_px)),
+      rows_in_memory_(lanes == LaneMapping::disparities &&
+                      slabs_of(disparities) > most_decided_slabs),
+      columns_in_memory_(lanes == LaneMapping::disparities &&
+                         slabs_of(disparities) > most_summed_slabs),
       rows_(Program::compute(
-          library, "sgm_path.comp",
+          library, path_shader(rows_in_memory_),
           path_defines(disparities, settings) + ShaderDefines{{"ALONG", "0"},
                                                               {"ADD", settings.columns ? "1" : "0"},
                                                               {"DECIDE", "1"}})),
-      columns_(Program::compute(library, "sgm_path.comp",
+      columns_(Program::compute(library, path_shader(columns_in_memory_),
                                 path_defines(disparities, settings) +
                                     ShaderDefines{{"ALONG", "1"}, {"ADD", "0"}, {"DECIDE", "0"}})),
       scratch_(scratch),
@@ -86,10 +102,22 @@ SgmPass::SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int d
     const std::size_t winner_bytes = layout.block_pixels() * 8;
     if (!for_winners_ || for_winners_->bytes() < winner_bytes)
         own_winners_.emplace(winner_bytes, GL_DYNAMIC_COPY);
+    constexpr std::size_t bytes_per_slab = 16;
+    if (rows_in_memory_)
+        paths_.emplace(
+            static_cast<std::size_t>(path_lines() * slabs_of(disparities)) * bytes_per_slab,
+            GL_DYNAMIC_COPY);
+}
+
+int SgmPass::path_lines() const {
+    return columns_in_memory_ ? std::max(layout_.width_px, sum_rows_) : sum_rows_;
 }
 
 void SgmPass::run(PassProfiler& profiler, const Buffer& costs) {
-    const auto run_paths = [&](Program& program, int lines, int first_row) {
+    const std::size_t volume = volume_size(layout_, disparities_);
+    const double operations = static_cast<double>(volume) * 2 * 11;
+    const auto run_paths = [&](Program& program, bool is_in_memory, int lines, int first_row,
+                               double line_operations) {
         program.use();
         program.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
         program.set("plane", static_cast<int>(layout_.block_pixels()));
@@ -98,17 +126,27 @@ void SgmPass::run(PassProfiler& profiler, const Buffer& costs) {
         costs.bind_storage(0);
         (own_sums_ ? *own_sums_ : *scratch_).bind_storage(1);
         winners().bind_storage(2);
-        program.dispatch_over(lines, 1);
+        if (is_in_memory) {
+            program.set("path_lines", path_lines());
+            paths_->bind_storage(3);
+        }
+        constexpr int lanes_of_group = 16;
+        dispatch_in_parts(lines, lanes_of_group, line_operations * lines, max_operations_,
+                          [&](int first, int count) {
+                              program.set("first_line", first);
+                              program.dispatch_over(count, 1);
+                          });
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     };
-    const std::size_t volume = volume_size(layout_, disparities_);
-    const double operations = static_cast<double>(volume) * 2 * 11;
     if (settings_.columns)
-        profiler.run("column paths", {volume * 5, operations},
-                     [&] { run_paths(columns_, layout_.width_px, 0); });
+        profiler.run("column paths", {volume * 5, operations}, [&] {
+            run_paths(columns_, columns_in_memory_, layout_.width_px, 0,
+                      operations / layout_.width_px);
+        });
     profiler.run("row paths", {volume * (settings_.columns ? 5 : 4), operations * 1.3}, [&] {
         for (int row = 0; row < layout_.height_px; row += sum_rows_)
-            run_paths(rows_, std::min(sum_rows_, layout_.height_px - row), row);
+            run_paths(rows_, rows_in_memory_, std::min(sum_rows_, layout_.height_px - row), row,
+                      operations * 1.3 / layout_.height_px);
     });
 }
 

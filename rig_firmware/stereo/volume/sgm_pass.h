@@ -6,6 +6,8 @@
 #include "common/gl/objects/program.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/pass_profiler.h"
+#include "rig_firmware/stereo/volume/dispatch_parts.h"
+#include "rig_firmware/stereo/volume/lane_mapping.h"
 #include "rig_firmware/stereo/volume/stereo_layout.h"
 
 namespace vantage {
@@ -43,12 +45,16 @@ class SgmCostPass {
 /// processing by semiglobal matching and mutual information", PAMI 30 (2008).
 class SgmPass {
   public:
+    /// lanes and max_operations (of one dispatch) change the time that it takes, and no bit of the
+    /// result.
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-            const SgmSettings& settings);
+            const SgmSettings& settings, LaneMapping lanes = lane_mapping_here(),
+            double max_operations = max_dispatch_operations);
     /// Keeps its sums in `scratch` and its winners in `for_winners` if they fit: buffers that
     /// outlive this and hold nothing of worth from run() on, until the winners were read.
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-            const SgmSettings& settings, const Buffer& scratch, const Buffer& for_winners);
+            const SgmSettings& settings, const Buffer& scratch, const Buffer& for_winners,
+            LaneMapping lanes = lane_mapping_here());
 
     /// costs: bytes in SgmCostPass's form, at most SgmSettings::most_cost().
     void run(PassProfiler& profiler, const Buffer& costs);
@@ -57,20 +63,26 @@ class SgmPass {
     const Buffer& winners() const { return own_winners_ ? *own_winners_ : *for_winners_; }
     std::size_t volume_bytes() const { return own_sums_ ? own_sums_->bytes() : 0U; }
     std::size_t gpu_bytes() const {
-        return volume_bytes() + (own_winners_ ? own_winners_->bytes() : 0U);
+        return volume_bytes() + (own_winners_ ? own_winners_->bytes() : 0U) +
+               (paths_ ? paths_->bytes() : 0U);
     }
 
   private:
     SgmPass(const ShaderLibrary& library, const StereoLayout& layout, int disparities,
-            const SgmSettings& settings, const Buffer* scratch, const Buffer* for_winners);
+            const SgmSettings& settings, const Buffer* scratch, const Buffer* for_winners,
+            LaneMapping lanes, double max_operations);
+    /// Most lines that one dispatch walks side by side.
+    int path_lines() const;
 
     StereoLayout layout_;
     int disparities_;
     SgmSettings settings_;
+    double max_operations_;
     int sum_rows_;
+    bool rows_in_memory_, columns_in_memory_;  ///< see sgm_path_narrow.comp
     Program rows_;
     Program columns_;
-    std::optional<Buffer> own_sums_, own_winners_;
+    std::optional<Buffer> own_sums_, own_winners_, paths_;
     const Buffer *scratch_, *for_winners_;
 };
 

@@ -119,6 +119,18 @@ StereoPlanes halved(const StereoPlanes& picture) {
     return {halved(picture.luma), halved(picture.colour)};
 }
 
+StereoPlanes with_half_the_rows(const StereoPlanes& picture) {
+    const auto mean_of_rows = [](const GreyImage& plane) {
+        GreyImage half((plane.rows + 1) / 2, plane.cols);
+        for (int y = 0; y < half.rows; ++y)
+            for (int x = 0; x < half.cols; ++x)
+                half(y, x) = static_cast<unsigned char>(
+                    (plane(2 * y, x) + at_edge_repeated(plane, x, 2 * y + 1) + 1) >> 1);
+        return half;
+    };
+    return {mean_of_rows(picture.luma), mean_of_rows(picture.colour)};
+}
+
 cv::Mat1b permeability_of(const StereoPlanes& guide, const PermeabilityTable& table) {
     cv::Mat1b result(guide.luma.size());
     const auto passes = [&](int x, int y, int from_x, int from_y) {

@@ -31,6 +31,8 @@ StereoPlanes guide_of(const StereoPlanes& picture);
 /// Rounded mean of 2x2; an odd last row or column counts twice (columns: within the padded word).
 GreyImage halved(const GreyImage& luma);
 StereoPlanes halved(const StereoPlanes& picture);
+/// The same with HalvedSides::height.
+StereoPlanes with_half_the_rows(const StereoPlanes& picture);
 
 /// Per pixel: bits 0-3 from the left neighbour, bits 4-7 from the upper one; 0 at the edges.
 cv::Mat1b permeability_of(const StereoPlanes& guide, const PermeabilityTable& table);

@@ -21,12 +21,31 @@ std::vector<cv::Mat1b> halved_costs(const cv::Mat1i& left_features, const cv::Ma
             costs.emplace_back((left_features.rows + 1) / 2, left_features.cols / 2);
         for (int y = 0; y < picture.rows; ++y)
             for (int x = 0; x < picture.cols; ++x) {
-                int cost = least_around(2 * x + 1, 2 * y, 2 * d);
-                if (samples == HalvedCostSamples::two) {
-                    const int below = std::min(2 * y + 1, left_features.rows - 1);
+                const int below = std::min(2 * y + 1, left_features.rows - 1);
+                const bool is_lower = samples == HalvedCostSamples::one && y % 2 == 1;
+                int cost = least_around(2 * x + 1, is_lower ? below : 2 * y, 2 * d);
+                if (samples == HalvedCostSamples::two)
                     cost = (cost + least_around(2 * x, below, 2 * d) + 1) >> 1;
-                }
                 picture(y, x) = static_cast<unsigned char>(cost);
+            }
+    }
+    return costs;
+}
+
+std::vector<cv::Mat1b> paired_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
+                                    int disparities) {
+    std::vector<cv::Mat1b> costs;
+    for (int d = 0; d < disparities; ++d) {
+        cv::Mat1b& picture = costs.emplace_back((left_features.rows + 1) / 2, left_features.cols);
+        for (int y = 0; y < picture.rows; ++y)
+            for (int x = 0; x < picture.cols; ++x) {
+                const auto cost_in = [&](int row) {
+                    return feature_cost(left_features(row, x),
+                                        feature_at(right_features, x - d, row));
+                };
+                const int below = std::min(2 * y + 1, left_features.rows - 1);
+                picture(y, x) =
+                    static_cast<unsigned char>((cost_in(2 * y) + cost_in(below) + 1) >> 1);
             }
     }
     return costs;

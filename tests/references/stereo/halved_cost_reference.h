@@ -14,4 +14,8 @@ namespace vantage {
 std::vector<cv::Mat1b> halved_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
                                     int disparities, HalvedCostSamples samples);
 
+/// CPU reference of PermCostPass with CostRows::pairs: a picture a disparity.
+std::vector<cv::Mat1b> paired_costs(const cv::Mat1i& left_features, const cv::Mat1i& right_features,
+                                    int disparities);
+
 }  // namespace vantage

@@ -49,4 +49,24 @@ DisparityImage upsampled(const DisparityImage& coarse, const GreyImage& coarse_l
     return result;
 }
 
+DisparityImage upsampled_rows(const DisparityImage& coarse, const GreyImage& coarse_luma,
+                              const GreyImage& fine_luma) {
+    DisparityImage result(fine_luma.size());
+    for (int y = 0; y < result.rows; ++y)
+        for (int x = 0; x < result.cols; ++x) {
+            const int y_beside = std::clamp(y / 2 + (y % 2 ? 1 : -1), 0, coarse.rows - 1);
+            const int own = coarse(y / 2, x), beside = coarse(y_beside, x);
+            if (own != 0 && beside != 0 && std::abs(own - beside) <= disparity_steps_per_px) {
+                result(y, x) = static_cast<unsigned short>((3 * own + beside + 2) >> 2);
+                continue;
+            }
+            // A result lies a quarter of a coarse row beside its own one, and three quarters from
+            // the other.
+            const int own_cost = std::abs(fine_luma(y, x) - coarse_luma(y / 2, x)) + 1;
+            const int beside_cost = std::abs(fine_luma(y, x) - coarse_luma(y_beside, x)) + 3;
+            result(y, x) = static_cast<unsigned short>(beside_cost < own_cost ? beside : own);
+        }
+    return result;
+}
+
 }  // namespace vantage

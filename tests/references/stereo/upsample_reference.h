@@ -8,4 +8,8 @@ namespace vantage {
 DisparityImage upsampled(const DisparityImage& coarse, const GreyImage& coarse_luma,
                          const GreyImage& fine_luma);
 
+/// CPU reference of UpsampleRowsPass. `coarse_luma` is that of with_half_the_rows().
+DisparityImage upsampled_rows(const DisparityImage& coarse, const GreyImage& coarse_luma,
+                              const GreyImage& fine_luma);
+
 }  // namespace vantage

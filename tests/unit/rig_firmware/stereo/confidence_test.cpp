@@ -27,7 +27,7 @@ TEST(Confidence, OrdersPixelsSoThatTheSureOnesErrFarLessThanChanceWouldHaveIt) {
     const EglContext context;
     const ShaderLibrary library;
     const std::vector<FilmedPair> pairs = noisy_pairs(library);
-    for (const char* name : {"perm_sgm", "perm", "coarse", "sgm"}) {
+    for (const char* name : {"row_pairs", "perm_sgm", "perm", "coarse", "sgm"}) {
         double area = 0, by_chance = 0;
         for (const FilmedPair& pair : pairs) {
             const auto matcher = make_matcher(name, library,

@@ -11,6 +11,7 @@
 #include "rig_firmware/stereo/disparity/smooth_pass.h"
 #include "rig_firmware/stereo/disparity/support_pass.h"
 #include "rig_firmware/stereo/disparity/upsample_pass.h"
+#include "rig_firmware/stereo/disparity/upsample_rows_pass.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/features/halve_pass.h"
 #include "rig_firmware/stereo/volume/halved_cost_pass.h"
@@ -238,6 +239,49 @@ TEST_P(EnginePassesTest, HalveAndUpsampleAsTheCpuDoes) {
                  lower_half(fine_words), "result of 16 bits");
 }
 
+TEST_P(EnginePassesTest, HalveAndUpsampleRowsAsTheCpuDoes) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    LumaPass fine(library_, layout_);
+    fine.run(profiler_, left, left);
+    HalvePass halve(library_, layout_, HalvedSides::height);
+    halve.run(profiler_, fine.left());
+    const StereoLayout half = with_half_the_rows(layout_);
+    const StereoPlanes half_left = with_half_the_rows(left_);
+    std::vector<unsigned char> bytes(halve.luma().bytes());
+    halve.luma().read(0, std::as_writable_bytes(std::span(bytes)));
+    for (int y = 0; y < half.height_px; ++y)
+        for (int x = -4; x < half.width_px + 4; ++x) {
+            const int nearest = std::clamp(x, 0, half.width_px - 1);
+            const auto at = static_cast<std::size_t>(4 * y * half.luma_row_words() + 4 + x);
+            ASSERT_EQ(bytes[at], half_left.luma(y, nearest)) << x << ", " << y;
+            ASSERT_EQ(bytes[half.luma_words() * 4 + at], half_left.colour(y, nearest))
+                << x << ", " << y;
+        }
+
+    DisparityImage disparity(half.height_px, half.width_px);
+    cv::RNG random(11);
+    for (int y = 0; y < half.height_px; ++y)
+        for (int x = 0; x < half.width_px; ++x) {
+            const int surface = (x / 8 + y / 8) % 2 ? 300 : random.uniform(0, 1000);
+            const bool is_known = random.uniform(0, 10) > 0;
+            disparity(y, x) =
+                static_cast<unsigned short>(is_known ? surface + x + random.uniform(0, 50) : 0);
+        }
+    UpsampleRowsPass upsample(library_, layout_);
+    upsample.run(profiler_, buffer_of(disparity, half, 77), halve.luma(), fine.left());
+    const cv::Mat1i fine_words = channel_of(upsample.disparity(), layout_, 1, 0);
+    expect_equal(lower_half(fine_words),
+                 as_int(upsampled_rows(disparity, half_left.luma, left_.luma)), "upsampled");
+    expect_equal(upper_half(fine_words), cv::Mat1i(fine_words.size(), 77), "confidence");
+
+    UpsampleRowsPass without_confidence(library_, layout_, DisparityForm::halves);
+    without_confidence.run(profiler_, buffer_of(disparity, half, 77), halve.luma(), fine.left());
+    ResultPass result(library_, layout_, false, DisparityForm::halves);
+    expect_equal(as_int(result.run(profiler_, without_confidence.disparity()).download()),
+                 lower_half(fine_words), "result of 16 bits");
+}
+
 TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBitForBit) {
     Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
     Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
@@ -260,13 +304,15 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
         cv::copyMakeBorder(picture.colour, even.colour, 0, 0, 0, more, cv::BORDER_REPLICATE);
         return feature_words(even);
     };
+    constexpr double max_operations = 1e5;  // so few that most sizes take several dispatches
     for (const HalvedCostSamples samples : {HalvedCostSamples::one, HalvedCostSamples::two})
         for (const LaneMapping lanes : lane_mappings) {
             const int most_code = samples == HalvedCostSamples::one ? max_perm_code : 69;
             const std::vector<cv::Mat1b> costs =
                 halved_costs(words_of_even_width(left_), words_of_even_width(right_),
                              GetParam().disparities, samples);
-            HalvedCostPass cost(library_, layout_, GetParam().disparities, samples, lanes);
+            HalvedCostPass cost(library_, layout_, GetParam().disparities, samples, lanes,
+                                max_operations);
             PermPass perm(library_, half, static_cast<int>(costs.size()), PermOutput::costs,
                           PermCosts::given, most_code, lanes);
             cost.run(profiler_, features, perm.costs());
@@ -279,28 +325,31 @@ TEST_P(EnginePassesTest, CostsAtHalfTheSizeAndTheirAggregationAgreeWithTheCpuBit
         }
 }
 
-TEST_P(EnginePassesTest, FeaturesOfEvenRowsAreThoseOfAllRows) {
+TEST_P(EnginePassesTest, FeaturesOfOneRowOfTwoAreThoseOfAllRows) {
     Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
     Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
     left.upload(pair_.left);
     right.upload(pair_.right);
     LumaPass luma(library_, layout_);
     luma.run(profiler_, left, right);
-    const auto even_rows = [&](const Buffer& features) {
+    const auto one_row_of_two = [&](const Buffer& features) {
         const cv::Mat1i words = channel_of(features, layout_, 1, 0);
         cv::Mat1i rows((words.rows + 1) / 2, words.cols);
-        for (int y = 0; y < rows.rows; ++y) words.row(2 * y).copyTo(rows.row(y));
+        for (int y = 0; y < rows.rows; ++y)
+            words.row(std::min(2 * y + y % 2, words.rows - 1)).copyTo(rows.row(y));
         return rows;
     };
     FeaturePass all(library_, layout_, GetParam().disparities, PictureKind::of_stream);
-    FeaturePass even(library_, layout_, GetParam().disparities, PictureKind::of_stream,
-                     FeatureRows::even);
+    FeaturePass some(library_, layout_, GetParam().disparities, PictureKind::of_stream,
+                     FeatureRows::one_of_two);
     // Rows are compared in the first frame, which needs them all.
     for (const char* frame : {"compared", "not compared"}) {
         all.run(profiler_, luma);
-        even.run(profiler_, luma);
-        expect_equal(even_rows(even.left_features()), even_rows(all.left_features()), frame);
-        expect_equal(even_rows(even.right_features()), even_rows(all.right_features()), frame);
+        some.run(profiler_, luma);
+        expect_equal(one_row_of_two(some.left_features()), one_row_of_two(all.left_features()),
+                     frame);
+        expect_equal(one_row_of_two(some.right_features()), one_row_of_two(all.right_features()),
+                     frame);
         luma.run(profiler_, right, left);
     }
 }
@@ -318,7 +367,9 @@ TEST_P(EnginePassesTest, CostsThatAreComputedBeforeTheirAggregationLeaveTheSameB
     permeabilities.run(profiler_, luma.left());
     PermPass perm(library_, layout_, GetParam().disparities, PermOutput::costs, PermCosts::given,
                   max_perm_code, LaneMapping::disparities);
-    PermCostPass cost(library_, layout_, GetParam().disparities);
+    constexpr double max_operations = 1e5;  // so few that most sizes take several dispatches
+    PermCostPass cost(library_, layout_, GetParam().disparities, CostRows::all,
+                      LaneMapping::disparities, max_operations);
     cost.run(profiler_, features, perm.costs());
     const cv::Mat1i left_words = channel_of(features.left_features(), layout_, 1, 0),
                     right_words = channel_of(features.right_features(), layout_, 1, 0);
@@ -330,6 +381,44 @@ TEST_P(EnginePassesTest, CostsThatAreComputedBeforeTheirAggregationLeaveTheSameB
         perm.costs(), layout_,
         perm_costs(left_words, right_words, permeability_of(guide_of(left_), permeability_table(8)),
                    GetParam().disparities));
+}
+
+TEST_P(EnginePassesTest, CostsOfPairsOfRowsAgreeWithTheCpuBitForBit) {
+    Texture left(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    Texture right(TextureFormat::rgba8, layout_.width_px, layout_.height_px);
+    left.upload(pair_.left);
+    right.upload(pair_.right);
+    LumaPass luma(library_, layout_);
+    luma.run(profiler_, left, right);
+    FeaturePass features(library_, layout_, GetParam().disparities);
+    features.run(profiler_, luma);
+    const StereoLayout half = with_half_the_rows(layout_);
+    const std::vector<cv::Mat1b> costs =
+        paired_costs(channel_of(features.left_features(), layout_, 1, 0),
+                     channel_of(features.right_features(), layout_, 1, 0), GetParam().disparities);
+    for (const LaneMapping lanes : lane_mappings)
+        for (const double max_operations : {1e5, max_dispatch_operations}) {
+            const PermPass perm(library_, half, GetParam().disparities, PermOutput::costs,
+                                PermCosts::given, max_perm_code, lanes);
+            PermCostPass cost(library_, layout_, GetParam().disparities, CostRows::pairs, lanes,
+                              max_operations);
+            cost.run(profiler_, features, perm.costs());
+            expect_equal_costs(perm.costs(), half, costs, ByteOrder::of_sums);
+        }
+}
+
+TEST(DispatchInParts, CoversAllLinesInEqualPieces) {
+    const auto pieces = [](int lines, int step, double operations) {
+        std::vector<std::pair<int, int>> found;
+        dispatch_in_parts(lines, step, operations, 100,
+                          [&](int first, int count) { found.emplace_back(first, count); });
+        return found;
+    };
+    using Pieces = std::vector<std::pair<int, int>>;
+    EXPECT_EQ(pieces(40, 16, 100), (Pieces{{0, 40}}));
+    EXPECT_EQ(pieces(100, 16, 250), (Pieces{{0, 48}, {48, 48}, {96, 4}}));
+    EXPECT_EQ(pieces(3, 1, 1e9), (Pieces{{0, 1}, {1, 1}, {2, 1}}));
+    EXPECT_EQ(pieces(0, 16, 0), Pieces());
 }
 
 TEST(RowShiftOfAStream, IsComparedSeldomAndAnewAfterForget) {

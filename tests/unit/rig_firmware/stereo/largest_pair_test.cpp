@@ -46,13 +46,13 @@ TEST_P(LargestPairTest, IsMatchedOverItsWholeWidthAndHeight) {
 
 INSTANTIATE_TEST_SUITE_P(
     WideAndHigh, LargestPairTest,
-    testing::Values(LargestCase{"perm_sgm", 4096, 37, 256, 251},
-                    LargestCase{"perm", 4096, 37, 256, 251}, LargestCase{"sgm", 4096, 37, 256, 251},
-                    LargestCase{"coarse", 4096, 37, 256, 250},
-                    LargestCase{"gradient", 4096, 37, 256, 251},
-                    LargestCase{"perm_sgm", 61, 4096, 16, 9}, LargestCase{"perm", 61, 4096, 16, 9},
-                    LargestCase{"sgm", 61, 4096, 16, 9}, LargestCase{"coarse", 61, 4096, 16, 8},
-                    LargestCase{"gradient", 61, 4096, 16, 9}),
+    testing::Values(
+        LargestCase{"perm_sgm", 4096, 37, 256, 251}, LargestCase{"row_pairs", 4096, 37, 256, 251},
+        LargestCase{"perm", 4096, 37, 256, 251}, LargestCase{"sgm", 4096, 37, 256, 251},
+        LargestCase{"coarse", 4096, 37, 256, 250}, LargestCase{"gradient", 4096, 37, 256, 251},
+        LargestCase{"perm_sgm", 61, 4096, 16, 9}, LargestCase{"row_pairs", 61, 4096, 16, 9},
+        LargestCase{"perm", 61, 4096, 16, 9}, LargestCase{"sgm", 61, 4096, 16, 9},
+        LargestCase{"coarse", 61, 4096, 16, 8}, LargestCase{"gradient", 61, 4096, 16, 9}),
     [](const auto& test) {
         return std::string(test.param.matcher) + (test.param.width_px == 4096 ? "_wide" : "_high");
     });

@@ -9,6 +9,8 @@
 namespace vantage {
 namespace {
 
+constexpr double operations_of_part = 1e5;  // so few that most sizes take several dispatches
+
 class SgmPassTest : public EnginePassTest {
   protected:
     SgmPassTest() {
@@ -43,9 +45,13 @@ TEST_P(SgmPassTest, FourPathsOverTheMatchingCostAgreeWithTheCpuBitForBit) {
     const std::vector<cv::Mat1b> costs =
         sgm_costs(left_words_, right_words_, GetParam().disparities, 1);
     expect_equal_costs(cost.costs(), layout_, costs);
-    SgmPass paths(library_, layout_, GetParam().disparities, settings);
-    paths.run(profiler_, cost.costs());
-    expect_winners(paths.winners(), sgm_winners(costs, settings));
+    const Winners winners = sgm_winners(costs, settings);
+    for (const LaneMapping lanes : {LaneMapping::pixels, LaneMapping::disparities}) {
+        SgmPass paths(library_, layout_, GetParam().disparities, settings, lanes,
+                      operations_of_part);
+        paths.run(profiler_, cost.costs());
+        expect_winners(paths.winners(), winners);
+    }
 }
 
 TEST_P(SgmPassTest, RowPathsOverPermeabilitySumsAgreeWithTheCpuBitForBit) {
@@ -57,9 +63,12 @@ TEST_P(SgmPassTest, RowPathsOverPermeabilitySumsAgreeWithTheCpuBitForBit) {
                    permeability_of(guide_of(left_), permeability_table(9)), GetParam().disparities);
     expect_equal_costs(perm.costs(), layout_, costs);
     const Winners winners = sgm_winners(costs, settings);
-    SgmPass paths(library_, layout_, GetParam().disparities, settings);
-    paths.run(profiler_, perm.costs());
-    expect_winners(paths.winners(), winners);
+    for (const LaneMapping lanes : {LaneMapping::pixels, LaneMapping::disparities}) {
+        SgmPass paths(library_, layout_, GetParam().disparities, settings, lanes,
+                      operations_of_part);
+        paths.run(profiler_, perm.costs());
+        expect_winners(paths.winners(), winners);
+    }
     SgmPass in_scratch(library_, layout_, GetParam().disparities, settings, perm.large_scratch(),
                        perm.small_scratch());
     in_scratch.run(profiler_, perm.costs());
@@ -68,7 +77,8 @@ TEST_P(SgmPassTest, RowPathsOverPermeabilitySumsAgreeWithTheCpuBitForBit) {
 
 INSTANTIATE_TEST_SUITE_P(OddSizes, SgmPassTest,
                          testing::Values(PassCase{61, 47, 13}, PassCase{16, 16, 16},
-                                         PassCase{51, 263, 37}, PassCase{311, 239, 21}));
+                                         PassCase{51, 263, 37}, PassCase{311, 239, 21},
+                                         PassCase{83, 30, 70}));
 
 }  // namespace
 }  // namespace vantage
