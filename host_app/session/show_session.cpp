@@ -9,6 +9,7 @@
 #include "common/base/time/pulse_grid.h"
 #include "common/image/image_file.h"
 #include "host_app/control/ports/freed_sink.h"
+#include "host_app/control/ports/opentrackio_sink.h"
 #include "host_app/desk/feed/desk_feed.h"
 #include "host_app/desk/feed/stage_points.h"
 #include "host_app/desk/windows/operator_window.h"
@@ -21,8 +22,12 @@
 
 namespace vantage {
 void ShowSession::run(StopSignal& stop) {
-    for (const std::string& url : options.outputs)
+    for (const std::string& url : options.outputs) {
         if (is_freed_url(url)) show.add(make_freed_sink(url));
+        if (is_opentrackio_url(url))
+            show.add(
+                make_opentrackio_sink(url, show.settings().rate_hz, show.settings().pulse_rate_hz));
+    }
     BackgroundSaver backgrounds(show, options.saved_background);
     ControlRoom room(options.controls, show);
     if (!options.metrics.empty()) metrics.emplace(options.metrics);
