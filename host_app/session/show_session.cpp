@@ -31,6 +31,10 @@ void ShowSession::run(StopSignal& stop) {
     BackgroundSaver backgrounds(show, options.saved_background);
     ControlRoom room(options.controls, show);
     if (!options.metrics.empty()) metrics.emplace(options.metrics);
+    if (!options.web.empty()) {
+        web.emplace(options.web, show.controls().operator_input());
+        room.keep_lamps();
+    }
     if (options.headless)
         run_headless(stop, room, backgrounds);
     else
@@ -103,8 +107,14 @@ void ShowSession::follow_replay(MonotonicTime now) {
 
 LiveReport ShowSession::report_now() const {
     LiveReport report = show.report();
-    if (takes && takes->state().takes > 0) report.take = takes->state();
+    report.take = report_take();
     return report;
+}
+
+/// The take that is or was recorded; nothing without one.
+std::optional<TakeState> ShowSession::report_take() const {
+    if (takes && takes->state().takes > 0) return takes->state();
+    return std::nullopt;
 }
 
 void ShowSession::show_metrics(const ControlRoom& room, MonotonicTime now) {
@@ -168,6 +178,7 @@ void ShowSession::follow_requests(OutputSwitch& outputs, BackgroundSaver& backgr
     show_metrics(room, now);
     room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt,
                     backgrounds.state().path, now);
+    if (web) web->follow(show, report_take(), room.lamps(), now);
 }
 
 void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, BackgroundSaver& backgrounds) {

@@ -240,6 +240,13 @@ void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
                     "on 127.0.0.1; ?open=yes)")
         ->type_name("URL")
         ->group(group::control);
+    command
+        .add_option("--web", web,
+                    "Serve a page for tablets and phones on URL, http://HOST:PORT or https://...: "
+                    "the programme, its state and the rigs (?control=yes lets it give commands; "
+                    "pin=DIGITS, pin-file=FILE, certificate=FILE and key=FILE, open=yes)")
+        ->type_name("URL")
+        ->group(group::control);
     command.add_flag("--headless", headless, "Run without a window")->group(group::control);
     command
         .add_option("--desk", desk,
