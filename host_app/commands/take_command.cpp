@@ -15,6 +15,7 @@
 #include "common/take/take_pulses.h"
 #include "host_app/exports/edit_list.h"
 #include "host_app/exports/take_export.h"
+#include "host_app/exports/take_server.h"
 #include "host_app/replay/clip_store.h"
 #include "host_app/session/options/common_options.h"
 #include "host_app/session/options/film_options.h"
@@ -310,6 +311,12 @@ void export_take(const TakeOptions& options) {
             stats.damaged > 0 ? fmt::format(", {} damaged frames left out", stats.damaged) : "");
 }
 
+void serve(const TakeOptions& options) {
+    const TakeReader take(options.take);
+    use_zone_of(take);
+    serve_take(take, std::cin, std::cout);
+}
+
 void join(const TakeOptions& options) {
     std::vector<std::unique_ptr<TakeReader>> readers;
     std::vector<const TakeReader*> takes;
@@ -345,6 +352,12 @@ CommandEntry take_command_entry() {
                      "Read every byte of a take and list gaps and damage; exit with 1 if there is "
                      "any",
                      check));
+        CLI::App* serve_command =
+            take->add_subcommand("serve",
+                                 "Serve decoded frame sets to another program by standard input "
+                                 "and output; the Python module vantage uses it");
+        serve_command->callback([options] { serve(*options); });
+        add_take(serve_command);
         CLI::App* cut_command =
             add("cut", "Copy a part of a take to a new one, without encoding again", cut);
         add_take(cut_command);
