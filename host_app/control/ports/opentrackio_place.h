@@ -11,10 +11,10 @@ constexpr int most_opentrackio_source = 200;
 constexpr int usual_sensor_mm = 36, least_sensor_mm = 1, most_sensor_mm = 100;
 
 /// The URL with the multicast group and the port of the standard for `opentrackio://multicast`:
-/// 235.135.1.SOURCE:55555, with the option `source` (1 by default).
+/// 239.135.1.SOURCE:55555, with the option `source` (1 by default).
 inline OutputUrl with_opentrackio_group(OutputUrl url) {
     if (url.place == "multicast")
-        url.place = "235.135.1." +
+        url.place = "239.135.1." +
                     std::to_string(url.number("source", 1, most_opentrackio_source).value_or(1)) +
                     ":55555";
     return url;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host_app/control/opentrackio/opentrackio_sample.h"
+#include "host_app/control/ports/opentrackio_place.h"
 #include "host_app/control/ports/opentrackio_sink.h"
 #include "host_app/flight/orbit_view.h"
 #include "tests/support/child_program.h"
@@ -320,6 +321,12 @@ TEST_F(BenchTest, OpentrackioUrlsAreChecked) {
     const auto sink = [](const std::string& url) {
         return thrown_sentence([&] { make_opentrackio_sink("opentrackio://" + url, 25, 25); });
     };
+    const auto place = [](const std::string& url) {
+        return with_opentrackio_group(OutputUrl::parse("opentrackio://" + url)).place;
+    };
+    EXPECT_EQ(place("multicast"), "239.135.1.1:55555");
+    EXPECT_EQ(place("multicast?source=200"), "239.135.1.200:55555");
+    EXPECT_EQ(place("10.0.0.1:5000?source=3"), "10.0.0.1:5000");
     EXPECT_EQ(sink("multicast?source=200&sensor-mm=24"), "");
     EXPECT_NE(sink("multicast?source=201").find("source"), std::string::npos);
     EXPECT_NE(sink("127.0.0.1:1?format=xml").find("json"), std::string::npos);
