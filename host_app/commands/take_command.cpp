@@ -13,7 +13,10 @@
 #include "common/take/take_check.h"
 #include "common/take/take_edit.h"
 #include "common/take/take_pulses.h"
+#include "host_app/exports/edit_list.h"
 #include "host_app/exports/take_export.h"
+#include "host_app/exports/take_server.h"
+#include "host_app/replay/clip_store.h"
 #include "host_app/session/options/common_options.h"
 #include "host_app/session/options/film_options.h"
 #include "host_app/takes/take_show.h"
@@ -25,6 +28,8 @@ struct TakeOptions {
     std::string take, from, to, output, form;
     std::uint64_t every = 1;
     std::vector<std::string> takes;
+    std::string clips;
+    std::vector<std::string> media;
     FilmOptions film;
     bool json = false;
 };
@@ -226,7 +231,53 @@ void cut(const TakeOptions& options) {
                options);
 }
 
+/// Returns the clips of --clips, or of the file beside the take; without one there are no clips.
+ClipBook clips_of(const TakeReader& take, const TakeOptions& options) {
+    const std::filesystem::path file =
+        options.clips.empty() ? clip_file_of(take.path()) : std::filesystem::path(options.clips);
+    if (options.clips.empty() && !std::filesystem::exists(file)) {
+        log_info("{} has no clips: the edit list has the whole material", options.take);
+        return {};
+    }
+    return load_clips(file, take.facts().pulse_rate_hz);
+}
+
+void export_edit_list(const TakeOptions& options) {
+    FilmOptions others = options.film;
+    others.rate.clear();
+    if (others.is_any() || !options.from.empty() || !options.to.empty() || options.every != 1)
+        fail("--as {} takes --clips, --media and --rate only", options.form);
+    if (std::filesystem::exists(options.output))
+        fail("{} already exists; choose another name for the edit list", options.output);
+    const TakeReader take(options.take);
+    use_zone_of(take);
+    std::vector<EditFilm> films;
+    for (const std::string& film : options.media) films.push_back(read_edit_film(film));
+    std::optional<double> rate_hz;
+    if (!options.film.rate.empty()) rate_hz = parse_rate(options.film.rate);
+    const EditList list = make_edit_list(take, clips_of(take, options), films, rate_hz);
+    if (options.form == "edl")
+        write_edl(list, options.output);
+    else
+        write_otio(list, options.output);
+    if (options.json)
+        std::cout << nlohmann::ordered_json{{"path", options.output},
+                                            {"as", options.form},
+                                            {"events", list.events.size()},
+                                            {"offline", list.offline},
+                                            {"rate_hz", list.rate_hz}}
+                         .dump()
+                  << '\n';
+    else
+        std::cout << fmt::format(
+            "{}: {} events at {:.5g} fps{}\n", options.output, list.events.size(), list.rate_hz,
+            list.offline > 0 ? fmt::format(", {} without a film", list.offline) : "");
+}
+
 void export_take(const TakeOptions& options) {
+    if (options.form == "otio" || options.form == "edl") return export_edit_list(options);
+    if (!options.clips.empty() || !options.media.empty())
+        fail("--clips and --media apply only to --as otio and --as edl");
     const bool is_film = options.form == "film";
     const ExportFormat* format =
         options.form == "camera" || is_film ? nullptr : &find_export_format(options.form);
@@ -258,6 +309,12 @@ void export_take(const TakeOptions& options) {
                      : "ticks of the camera",
             stats.there > 0 ? fmt::format(", {} existed", stats.there) : "",
             stats.damaged > 0 ? fmt::format(", {} damaged frames left out", stats.damaged) : "");
+}
+
+void serve(const TakeOptions& options) {
+    const TakeReader take(options.take);
+    use_zone_of(take);
+    serve_take(take, std::cin, std::cout);
 }
 
 void join(const TakeOptions& options) {
@@ -295,6 +352,12 @@ CommandEntry take_command_entry() {
                      "Read every byte of a take and list gaps and damage; exit with 1 if there is "
                      "any",
                      check));
+        CLI::App* serve_command =
+            take->add_subcommand("serve",
+                                 "Serve decoded frame sets to another program by standard input "
+                                 "and output; the Python module vantage uses it");
+        serve_command->callback([options] { serve(*options); });
+        add_take(serve_command);
         CLI::App* cut_command =
             add("cut", "Copy a part of a take to a new one, without encoding again", cut);
         add_take(cut_command);
@@ -322,7 +385,9 @@ CommandEntry take_command_entry() {
         add_take(export_command);
         std::string forms =
             "Export as camera: the flight as CSV and FreeD; film: a flight over the take (.mkv, "
-            ".mp4), every frame at the best quality, slower than real time";
+            ".mp4), every frame at the best quality, slower than real time; otio, edl: play list "
+            "and clips "
+            "for editors, as an OpenTimelineIO timeline or a CMX 3600 EDL";
         for (const ExportFormat& format : export_formats())
             forms += fmt::format("; {}: {}", format.name, format.words);
         export_command->add_option("--as", options->form, forms)->required();
@@ -332,8 +397,18 @@ CommandEntry take_command_entry() {
                          "Export only every Nth pulse, or tick of the camera")
             ->check(CLI::Range(1, 1'000'000))
             ->capture_default_str();
-        export_command->add_option("-o,--output", options->output, "Write to this folder or film")
+        export_command->add_option("-o,--output", options->output, "Write to this folder or file")
             ->required();
+        export_command
+            ->add_option("--clips", options->clips,
+                         "Clips and play list of an edit list (default: TAKE.clips.toml)")
+            ->group("Edit list");
+        export_command
+            ->add_option("--media", options->media,
+                         "Refer to these films of the take at normal speed (.mkv, .mp4); an event "
+                         "takes the first that has its frames (default: offline)")
+            ->expected(1, 100)
+            ->group("Edit list");
         options->film.add_to(*export_command);
     }};
 }

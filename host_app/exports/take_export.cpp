@@ -51,7 +51,8 @@ const ExportFormat& find_export_format(const std::string& name) {
         if (format.name == name) return format;
         names += std::string(", ") + format.name;
     }
-    fail("a take cannot be exported as '{}'; the formats are camera, film{}", name, names);
+    fail("a take cannot be exported as '{}'; the formats are camera, film, otio, edl{}", name,
+         names);
 }
 
 ExportStats export_moments(const TakeReader& take, const ExportFormat& format, const TakePart& part,

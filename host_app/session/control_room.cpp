@@ -19,7 +19,7 @@ ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
 
 void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
                              const std::string& saved_background, MonotonicTime now) {
-    if (!ports_) return;
+    if (!ports_ && !keeps_lamps_) return;
     const ProgrammeState state = show.state();
     const FlightControls::Lines lines = show.controls().lines();
     ShowLamps& lamps = shown_;

@@ -21,6 +21,9 @@ class ControlRoom {
     /// Updates the lamps. Call it often. `take` is nothing if no take can be recorded.
     void show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
                     const std::string& saved_background, MonotonicTime now);
+    /// Updates the lamps even without ports, for lamps().
+    void keep_lamps() { keeps_lamps_ = true; }
+    const ShowLamps& lamps() const { return shown_; }
     Tally::State tally() const { return tally_.state(); }
     LtcBoard::State ltc() const { return ltc_.state(); }
     /// The ports' counters so far.
@@ -36,6 +39,7 @@ class ControlRoom {
     LtcBoard ltc_;
     std::optional<SetTimecode> timecodes_;
     ShowLamps shown_;
+    bool keeps_lamps_ = false;
     MonotonicTime timecode_shown_{};
     std::optional<ControlPorts> ports_;
 };

@@ -9,6 +9,7 @@
 #include "common/base/time/pulse_grid.h"
 #include "common/image/image_file.h"
 #include "host_app/control/ports/freed_sink.h"
+#include "host_app/control/ports/opentrackio_sink.h"
 #include "host_app/desk/feed/desk_feed.h"
 #include "host_app/desk/feed/stage_points.h"
 #include "host_app/desk/windows/operator_window.h"
@@ -21,11 +22,19 @@
 
 namespace vantage {
 void ShowSession::run(StopSignal& stop) {
-    for (const std::string& url : options.outputs)
+    for (const std::string& url : options.outputs) {
         if (is_freed_url(url)) show.add(make_freed_sink(url));
+        if (is_opentrackio_url(url))
+            show.add(
+                make_opentrackio_sink(url, show.settings().rate_hz, show.settings().pulse_rate_hz));
+    }
     BackgroundSaver backgrounds(show, options.saved_background);
     ControlRoom room(options.controls, show);
     if (!options.metrics.empty()) metrics.emplace(options.metrics);
+    if (!options.web.empty()) {
+        web.emplace(options.web, show.controls().operator_input());
+        room.keep_lamps();
+    }
     if (options.headless)
         run_headless(stop, room, backgrounds);
     else
@@ -98,8 +107,14 @@ void ShowSession::follow_replay(MonotonicTime now) {
 
 LiveReport ShowSession::report_now() const {
     LiveReport report = show.report();
-    if (takes && takes->state().takes > 0) report.take = takes->state();
+    report.take = report_take();
     return report;
+}
+
+/// The take that is or was recorded; nothing without one.
+std::optional<TakeState> ShowSession::report_take() const {
+    if (takes && takes->state().takes > 0) return takes->state();
+    return std::nullopt;
 }
 
 void ShowSession::show_metrics(const ControlRoom& room, MonotonicTime now) {
@@ -163,6 +178,7 @@ void ShowSession::follow_requests(OutputSwitch& outputs, BackgroundSaver& backgr
     show_metrics(room, now);
     room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt,
                     backgrounds.state().path, now);
+    if (web) web->follow(show, report_take(), room.lamps(), now);
 }
 
 void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, BackgroundSaver& backgrounds) {

@@ -10,6 +10,7 @@
 #include "host_app/session/control_room.h"
 #include "host_app/session/live_show.h"
 #include "host_app/session/options/show_options.h"
+#include "host_app/session/web_feed.h"
 #include "host_app/takes/take_control.h"
 
 namespace vantage {
@@ -32,6 +33,7 @@ struct ShowSession {
     std::uint64_t told_notices = 0;  ///< replay notices in the log so far
     std::optional<MetricsServer> metrics = {};
     MonotonicTime metrics_shown{};
+    std::optional<WebFeed> web = {};
     MonotonicTime followed{};  ///< the frame set in which a performer was tracked last
 
     /// Runs to the end and prints the summary. Throws Error if an output or the take has failed.
@@ -44,6 +46,7 @@ struct ShowSession {
     void cue_time(const std::string& words);
     void follow_replay(MonotonicTime now);
     LiveReport report_now() const;
+    std::optional<TakeState> report_take() const;
     void show_metrics(const ControlRoom& room, MonotonicTime now);
     void find_pivots(const SessionRequests& requests, MonotonicTime now);
     void follow_requests(class OutputSwitch& outputs, BackgroundSaver& backgrounds,

@@ -28,20 +28,6 @@ constexpr std::chrono::seconds notice_duration{5};
 /// Radius of the corridor's map, in distances of the farthest rig from the pivot.
 constexpr double corridor_reach = 1.3;
 
-RigState state_in(const FrameSet* set, const RigStatus& status) {
-    if (!status.refused.empty()) return RigState::refused;
-    if (!status.connected) return RigState::disconnected;
-    const RigState absent = status.received == 0 ? RigState::starting : RigState::late;
-    if (!set) return absent;
-    for (const FrameSet::Slot& slot : set->slots) {
-        if (slot.rig != status.rig) continue;
-        if (slot.frame && slot.frame->has_pictures()) return RigState::present;
-        if (slot.absence == Absence::missed_by_rig) return RigState::missed;
-        if (slot.absence == Absence::disconnected) return RigState::disconnected;
-    }
-    return absent;
-}
-
 bool is_at_rig(const std::string& step) {
     return step == "capture" || step == "rectify" || step == "match" || step == "pack";
 }
@@ -98,14 +84,6 @@ DeskOutput desk_output(const OutputState& output) {
             output.queued,
             output.dropped,
             output.failure};
-}
-
-/// The age of the picture; nothing while the picture is held or from the past.
-std::optional<double> live_age_s(const ProgrammeState& programme) {
-    if (!programme.picture || programme.time.pulse || programme.time.is_held) return std::nullopt;
-    const ReadyInstant& instant = *programme.picture->job.instant;
-    if (!instant.is_live || !instant.exposure) return std::nullopt;
-    return std::chrono::duration<double>(TaiClock::now() - *instant.exposure).count();
 }
 
 DeskPlan::Rig plan_rig(const StagePlaces::Rig& rig) {

@@ -158,4 +158,25 @@ std::optional<DeskWheel> desk_wheel(const std::optional<WheelMapView>& view) {
     return wheel;
 }
 
+RigState state_in(const FrameSet* set, const RigStatus& status) {
+    if (!status.refused.empty()) return RigState::refused;
+    if (!status.connected) return RigState::disconnected;
+    const RigState absent = status.received == 0 ? RigState::starting : RigState::late;
+    if (!set) return absent;
+    for (const FrameSet::Slot& slot : set->slots) {
+        if (slot.rig != status.rig) continue;
+        if (slot.frame && slot.frame->has_pictures()) return RigState::present;
+        if (slot.absence == Absence::missed_by_rig) return RigState::missed;
+        if (slot.absence == Absence::disconnected) return RigState::disconnected;
+    }
+    return absent;
+}
+
+std::optional<double> live_age_s(const ProgrammeState& programme) {
+    if (!programme.picture || programme.time.pulse || programme.time.is_held) return std::nullopt;
+    const ReadyInstant& instant = *programme.picture->job.instant;
+    if (!instant.is_live || !instant.exposure) return std::nullopt;
+    return std::chrono::duration<double>(TaiClock::now() - *instant.exposure).count();
+}
+
 }  // namespace vantage

@@ -15,6 +15,12 @@ namespace vantage {
 /// quality. Measurements without samples are left out.
 std::vector<DeskFigure> desk_figures(const LiveReport& report);
 
+/// The state of a rig in the present frame set; null: there is none yet.
+RigState state_in(const FrameSet* set, const RigStatus& status);
+
+/// The age of the picture; nothing while the picture is held or from the past.
+std::optional<double> live_age_s(const ProgrammeState& programme);
+
 /// Converts clips and play list to the desk's values. `tai_offset_s` is as in TimecodeClock.
 DeskReplay desk_replay(const ProgrammeState& programme, const ClipPictures& pictures,
                        int tai_offset_s);

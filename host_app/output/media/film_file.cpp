@@ -93,6 +93,8 @@ void FilmFile::open(const AVCodecParameters& pictures, AVRational time_base, AVR
 
 void FilmFile::begin(const std::string& timecode) {
     if (!timecode.empty()) av_dict_set(&stream_->metadata, "timecode", timecode.c_str(), 0);
+    // Editors match material by reel and time code.
+    av_dict_set(&stream_->metadata, "reel_name", path_.stem().c_str(), 0);
     if (const int code = avformat_write_header(output_.get(), nullptr); code < 0)
         fail_writing(code);
     has_begun_ = true;

@@ -40,7 +40,7 @@ class FilmFile {
               const AVCodecParameters* sound = nullptr);
     /// Sets the time code at the start of the film, as TimecodeClock formats it, or empty. Call it
     /// after open() and before the first packet. Matroska stores it as the stream's tag `timecode`,
-    /// MP4 as a time code track.
+    /// MP4 as a time code track. The name of the file is the reel's name.
     void begin(const std::string& timecode);
     bool has_begun() const { return has_begun_; }
     /// Writes a packet and takes its content. Packets come in decoding order. Throws Error if the

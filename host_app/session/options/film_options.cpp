@@ -18,8 +18,8 @@ void FilmOptions::add_to(CLI::App& command) {
         ->group(group);
     command
         .add_option("--rate", rate,
-                    "Set the frame rate, such as 50, 29.97 or 30000/1001 (default: the stage's "
-                    "rate)")
+                    "Set the frame rate, also of an edit list, such as 50, 29.97 or 30000/1001 "
+                    "(default: the stage's rate, or that of --media)")
         ->group(group);
     command
         .add_option("--size", size,

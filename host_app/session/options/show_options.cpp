@@ -8,6 +8,7 @@
 #include "common/base/time/pulse_grid.h"
 #include "host_app/background/background_file.h"
 #include "host_app/control/ports/freed_sink.h"
+#include "host_app/control/ports/opentrackio_sink.h"
 #include "host_app/output/media/picture_encoder.h"
 #include "host_app/output/picture_target.h"
 
@@ -53,6 +54,8 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
     for (const std::string& url : outputs)
         if (is_freed_url(url))
             (void)make_freed_sink(url);
+        else if (is_opentrackio_url(url))
+            (void)make_opentrackio_sink(url, settings.rate_hz, settings.pulse_rate_hz);
         else
             settings.outputs.push_back(url);
     if (!film.empty()) settings.outputs.insert(settings.outputs.begin(), "file:" + film);
@@ -189,6 +192,9 @@ void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
     std::string kinds;
     for (const OutputEntry& entry : output_entries()) kinds += "\n  " + entry.words;
     kinds += "\n  freed://HOST:PORT (the camera of every tick as FreeD D1; ?camera=1)";
+    kinds +=
+        "\n  opentrackio://HOST:PORT or opentrackio://multicast (the camera of every tick; "
+        "?source=1, format=json or cbor, sensor-mm=36)";
     command
         .add_option("--output", outputs,
                     "Send the programme to URL at a constant frame rate, without overlays; repeat "
@@ -232,6 +238,13 @@ void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
         .add_option("--metrics", metrics,
                     "Serve Prometheus metrics on URL, at http://HOST:PORT/metrics (:9464 listens "
                     "on 127.0.0.1; ?open=yes)")
+        ->type_name("URL")
+        ->group(group::control);
+    command
+        .add_option("--web", web,
+                    "Serve a page for tablets and phones on URL, http://HOST:PORT or https://...: "
+                    "the programme, its state and the rigs (?control=yes lets it give commands; "
+                    "pin=DIGITS, pin-file=FILE, certificate=FILE and key=FILE, open=yes)")
         ->type_name("URL")
         ->group(group::control);
     command.add_flag("--headless", headless, "Run without a window")->group(group::control);

@@ -22,7 +22,7 @@ struct ShowOptions {
     std::string path, flight, clips, desk, snapshot, film, contact_sheet, size, synthesiser, wheels,
         encoder, rate;
     std::string background, saved_background;
-    std::string metrics, audio;
+    std::string metrics, web, audio;
     std::optional<double> audio_delay_ms;
     std::vector<std::string> outputs, controls;
     std::string quality = "auto";

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "common/base/files/atomic_file.h"
 #include "common/calibration_forms/calibration_form.h"
 #include "common/config/calibration_file.h"
@@ -21,6 +23,7 @@
 #include "common/wire/curve_keys.h"
 #include "common/wire/link_message.h"
 #include "host_app/background/background_file.h"
+#include "host_app/control/opentrackio/opentrackio_sample.h"
 #include "host_app/ltc/ltc_writer.h"
 #include "tests/fuzz/seeds/seed_frames.h"
 
@@ -297,6 +300,32 @@ void write_controls(const Seeds& seeds) {
         "\xd1\1\x2d\0\0\xfa\0\0\2\x80\0\0\xfa\0\2\x71\0\1\x38\x80\0\x9c\x40\0\x11\x94\0\0\xf9"sv);
 }
 
+/// Datagrams of a sample, each behind its length in two bytes, as opentrackio_fuzz.cpp reads them.
+void write_opentrackio(const Seeds& seeds) {
+    OpentrackioSample sample;
+    sample.width_px = 1280;
+    sample.height_px = 720;
+    sample.rate = {60000, 1001};
+    sample.timecode = SmpteCode{1, 2, 3, 4, true};
+    sample.ptp_locked = true;
+    sample.source_id = uuid_urn(1, 0);
+    sample.sample_id = uuid_urn(1, 1);
+    for (const OpentrackioEncoding encoding :
+         {OpentrackioEncoding::json, OpentrackioEncoding::cbor}) {
+        const std::string name = encoding == OpentrackioEncoding::json ? "json" : "cbor";
+        const std::vector<std::byte> bytes = write_opentrackio_sample(sample, encoding);
+        for (const std::size_t segment : {opentrackio_segment_bytes, std::size_t{200}}) {
+            std::string text;
+            for (const auto& packet : opentrackio_packets(bytes, encoding, 7, segment)) {
+                text += static_cast<char>(packet.size() >> 8);
+                text += static_cast<char>(packet.size() & 0xff);
+                text.append(reinterpret_cast<const char*>(packet.data()), packet.size());
+            }
+            seeds.write("opentrackio", fmt::format("{}_{}", name, segment), text);
+        }
+    }
+}
+
 /// As ltc_fuzz.cpp has its sound.
 void write_time_code(const Seeds& seeds) {
     LtcWriter writer(25);
@@ -456,6 +485,7 @@ int main(int argc, char** argv) {
         vantage::write_configurations(seeds);
         vantage::write_controls(seeds);
         vantage::write_time_code(seeds);
+        vantage::write_opentrackio(seeds);
         vantage::write_wheels(seeds);
         vantage::write_calibration(seeds);
         vantage::write_takes(seeds);

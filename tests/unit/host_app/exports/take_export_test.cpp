@@ -421,7 +421,8 @@ TEST_F(TakeExportTest, RefusesAFolderWithOtherContent) {
     refused("ply", "flight", "contains another export");
     std::ofstream(path("other")) << "mine";
     refused("views", "", "contains other files");
-    refused("fbx", "new", "the formats are camera, film, ply, glb, exr, training, views, mpeg");
+    refused("fbx", "new",
+            "the formats are camera, film, otio, edl, ply, glb, exr, training, views, mpeg");
     EXPECT_NE(thrown_sentence([&] {
                   export_moments(take_, find_export_format("ply"), {5, 6, 1}, path("new"));
               }).find("the range has no frames"),

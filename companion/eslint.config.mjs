@@ -1,0 +1,3 @@
+import { generateEslintConfig } from '@companion-module/tools/eslint/config.mjs'
+
+export default await generateEslintConfig({ enableTypescript: true })

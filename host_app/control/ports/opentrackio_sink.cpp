@@ -1,0 +1,82 @@
+#include "host_app/control/ports/opentrackio_sink.h"
+
+#include "common/wire/random_id.h"
+#include "host_app/control/opentrackio/opentrackio_sample.h"
+#include "host_app/control/ports/opentrackio_place.h"
+#include "host_app/control/ports/udp_socket.h"
+#include "host_app/output/frame_set_timecode.h"
+
+namespace vantage {
+namespace {
+
+/// Above this rate frames share numbers of time code.
+constexpr double most_timecode_hz = 60;
+/// Packets count from 1 to this number.
+constexpr std::uint64_t most_sequence = 65535;
+
+/// Whether all rigs of the frame set are disciplined by PTP; empty without rigs.
+std::optional<bool> is_ptp_locked(const FrameSet& set) {
+    std::optional<bool> locked;
+    for (const FrameSet::Slot& slot : set.slots)
+        if (slot.frame) locked = locked.value_or(true) && slot.frame->sync.disciplined;
+    return locked;
+}
+
+class OpentrackioSink final : public PictureSink {
+  public:
+    OpentrackioSink(const OutputUrl& url, double rate_hz, double pulse_rate_hz)
+        : name_(url.shown),
+          to_(resolve(network_place_of(with_opentrackio_group(url)), "output " + url.shown)),
+          socket_(UdpSocket::sending(to_)) {
+        url.require_options_of({"source", "format", "sensor-mm"});
+        encoding_ = url.choice("format", {"json", "cbor"}) == "cbor" ? OpentrackioEncoding::cbor
+                                                                     : OpentrackioEncoding::json;
+        sample_.source = static_cast<std::uint32_t>(
+            url.number("source", 1, most_opentrackio_source).value_or(1));
+        sample_.sensor_width_mm =
+            url.number("sensor-mm", least_sensor_mm, most_sensor_mm).value_or(usual_sensor_mm);
+        sample_.rate = PulseGrid(rate_hz).rate();
+        sample_.source_id = uuid_urn(base_, 0);
+        if (rate_hz <= most_timecode_hz) timecode_.emplace(pulse_rate_hz, rate_hz);
+    }
+    std::string name() const override { return name_; }
+    void take(const ProgrammePicture& picture) override {
+        sample_.camera = picture.camera;
+        sample_.time = TaiClock::now();
+        sample_.sequence = static_cast<std::uint32_t>(picture.tick);
+        sample_.sample_id = uuid_urn(base_, picture.tick + 1);
+        sample_.width_px = picture.picture.cols;
+        sample_.height_px = picture.picture.rows;
+        sample_.timecode.reset();
+        sample_.ptp_locked.reset();
+        if (picture.set) {
+            if (timecode_) sample_.timecode = SmpteCode::parse(timecode_->of(*picture.set));
+            sample_.ptp_locked = is_ptp_locked(*picture.set);
+        }
+        // UDP has no receipt: a missing receiver is not an error.
+        for (const std::vector<std::byte>& packet :
+             opentrackio_packets(write_opentrackio_sample(sample_, encoding_), encoding_,
+                                 static_cast<std::uint16_t>(1 + picture.tick % most_sequence)))
+            (void)socket_.send(packet, to_);
+    }
+
+  private:
+    std::string name_;
+    SocketAddress to_;
+    UdpSocket socket_;
+    const std::uint64_t base_ = random_id();
+    OpentrackioEncoding encoding_ = OpentrackioEncoding::json;
+    OpentrackioSample sample_;
+    std::optional<SetTimecode> timecode_;
+};
+
+}  // namespace
+
+bool is_opentrackio_url(const std::string& url) { return url.starts_with("opentrackio:"); }
+
+std::unique_ptr<PictureSink> make_opentrackio_sink(const std::string& url, double rate_hz,
+                                                   double pulse_rate_hz) {
+    return std::make_unique<OpentrackioSink>(OutputUrl::parse(url), rate_hz, pulse_rate_hz);
+}
+
+}  // namespace vantage

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "common/base/time/time.h"
+#include "common/image/image.h"
+#include "common/receive/frame_set.h"
+#include "common/wire/codec/colour_codec.h"
+#include "host_app/control/ports/command_intake.h"
+#include "host_app/control/ports/message_budget.h"
+
+namespace vantage {
+
+/// A request to the web desk.
+struct WebRequest {
+    std::string method, path;
+    std::map<std::string, std::string> query = {};
+    std::string host = {};    ///< header Host
+    std::string cookie = {};  ///< value of the cookie `vantage`
+    bool is_from_page =
+        false;  ///< has the header X-Vantage, which pages of other sites cannot send
+    std::string body = {};
+};
+struct WebAnswer {
+    unsigned status = 200;
+    std::string type = "text/plain; charset=utf-8", body = {};
+    std::vector<std::pair<std::string, std::string>> headers = {};
+};
+
+/// Largest body of a request: a command.
+inline constexpr std::size_t most_web_body_bytes = 200;
+
+/// The picture and the state that the page shows.
+struct WebShown {
+    ColourImage picture;                       ///< the programme; empty: none yet
+    std::shared_ptr<const FrameSet> set = {};  ///< of the picture; null: none
+    std::string state = "{}";                  ///< JSON
+};
+
+/// Counters for the summary.
+struct WebStats {
+    std::uint64_t requests = 0, refused = 0, commands = 0;
+};
+
+/// Answers the requests of the page for tablets and phones. It knows nothing of sockets. Pictures
+/// are encoded when they are asked for, and at most six times a second, however many ask.
+/// Thread-safe.
+class WebDesk {
+  public:
+    struct Settings {
+        bool has_control = false;  ///< whether commands are obeyed
+        std::string pin = {};      ///< empty: none is asked for
+        bool is_local = true;      ///< listens at this computer only
+        bool is_secure = false;    ///< by TLS
+    };
+    /// `input` must outlive it.
+    WebDesk(Settings settings, OperatorInputBox& input);
+
+    void show(WebShown shown);
+    WebAnswer answer(const WebRequest& request, MonotonicTime now);
+    WebStats stats() const;
+
+  private:
+    struct Picture {
+        std::shared_ptr<const std::string> jpeg;
+        double sharpness = 0;
+        MonotonicTime made{};
+    };
+    WebAnswer answer_to(const WebRequest& request, MonotonicTime now);
+    WebAnswer page() const;
+    WebAnswer log_in(const WebRequest& request, MonotonicTime now);
+    WebAnswer obey(const WebRequest& request, MonotonicTime now);
+    /// `rig`: empty for the programme.
+    WebAnswer picture(const std::string& rig, MonotonicTime now);
+    ColourImage newest(const std::string& rig) const;
+
+    Settings settings_;
+    const std::string session_;  ///< value of the cookie of those who gave the PIN
+    mutable std::mutex mutex_;   ///< guards all below
+    WebShown shown_;
+    WebStats stats_;
+    CommandIntake intake_;
+    MessageBudget attempts_;
+    JpegEncoder encoder_;
+    std::map<std::string, Picture> pictures_;
+};
+
+/// Whether the host of a request is this computer's loopback, so that a page of another site cannot
+/// reach a local server by a name of its own.
+bool is_loopback_host(std::string_view host);
+
+}  // namespace vantage
