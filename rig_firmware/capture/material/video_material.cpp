@@ -1,10 +1,12 @@
+#include <algorithm>
+#include <cstdint>
 #include <future>
 #include <memory>
 #include <utility>
 
+#include "common/av/video_reader.h"
 #include "common/base/error.h"
 #include "rig_firmware/capture/material/stereo_material.h"
-#include "rig_firmware/capture/material/video_reader.h"
 
 namespace vantage {
 namespace {
@@ -13,7 +15,10 @@ namespace {
 /// its first frame while this one plays, so that no pulse waits for it.
 class VideoRounds {
   public:
-    VideoRounds(std::string path, bool loop) : path_(std::move(path)), round_(open(path_)) {
+    VideoRounds(std::string path, bool loop)
+        : path_(std::move(path)),
+          length_(loop ? VideoReader(path_).count() : 0),
+          round_(open(path_)) {
         if (!round_.first) fail("{} holds no picture", path_);
         size_ = round_.first->size();
         if (loop) prepare();
@@ -29,6 +34,21 @@ class VideoRounds {
         return picture;
     }
 
+    /// Makes this frame the next one of the first round.
+    void start_at(std::uint64_t frame) {
+        if (frame == 0) return;
+        round_.first.reset();
+        if (round_.reader->seek(frame)) return;
+        round_.reader = std::make_unique<VideoReader>(path_);
+        round_.reader->skip(frame);
+    }
+
+    /// Drops frames of this round. Returns false if it ends before them.
+    bool skip(std::uint64_t frames) {
+        if (frames > 0 && std::exchange(round_.first, std::nullopt)) --frames;
+        return round_.reader->skip(frames);
+    }
+
     /// Starts the next round of a looping video.
     void begin_again() {
         round_ = upcoming_.get();
@@ -37,6 +57,8 @@ class VideoRounds {
 
     const std::string& path() const { return path_; }
     cv::Size size() const { return size_; }
+    /// Frames of a round of a looping video.
+    std::uint64_t length() const { return length_; }
     double rate_hz() const { return round_.reader->rate_hz(); }
     std::string describe() const {
         const std::string rate = rate_hz() > 0 ? fmt::format(", {:.4g} Hz", rate_hz()) : "";
@@ -58,6 +80,7 @@ class VideoRounds {
     }
 
     std::string path_;
+    std::uint64_t length_;
     Round round_;
     std::future<Round> upcoming_;
     cv::Size size_;
@@ -68,6 +91,7 @@ class VideoMaterial final : public StereoMaterial {
     explicit VideoMaterial(const RigConfig::Source& source)
         : loop_(source.loop), left_(source.left, loop_) {
         size_ = left_.size();
+        length_ = std::max<std::uint64_t>(1, left_.length());
         if (source.right.empty()) {
             size_.width /= 2;
             return;
@@ -77,16 +101,21 @@ class VideoMaterial final : public StereoMaterial {
             fail("{} is {}x{} and {} is {}x{}: both videos of a pair must have one size",
                  source.left, size_.width, size_.height, source.right, right_->size().width,
                  right_->size().height);
+        if (loop_) length_ = std::clamp<std::uint64_t>(right_->length(), 1, length_);
     }
 
     cv::Size size() const override { return size_; }
     double rate_hz() const override { return left_.rate_hz(); }
 
-    std::optional<StereoPair> pair_of(std::uint64_t) override {
-        std::optional<StereoPair> pair = next();
-        if (pair || !loop_) return pair;
-        left_.begin_again();
-        if (right_) right_->begin_again();
+    std::optional<StereoPair> pair_of(std::uint64_t pulse_index) override {
+        if (!loop_) return next();
+        catch_up(pulse_index);
+        ++position_;
+        if (std::optional<StereoPair> pair = next()) return pair;
+        // The decoder delivers fewer frames than the file announces: the round ends here.
+        length_ = std::max<std::uint64_t>(1, position_ - 1);
+        begin_again();
+        position_ = 1;
         return next();
     }
 
@@ -97,6 +126,35 @@ class VideoMaterial final : public StereoMaterial {
     }
 
   private:
+    void begin_again() {
+        left_.begin_again();
+        if (right_) right_->begin_again();
+        position_ = 0;
+    }
+
+    /// Moves on to the frame of this pulse, which is its number modulo the length of a round, so
+    /// that all rigs of a stage show frames of one number. Later it drops at most a few frames for
+    /// each pulse, since a computer that decodes more slowly than the pulses would fall behind
+    /// without limit.
+    void catch_up(std::uint64_t pulse_index) {
+        const std::uint64_t wanted = pulse_index % length_;
+        if (position_ >= length_) begin_again();
+        if (!std::exchange(has_started_, true)) {
+            left_.start_at(wanted);
+            if (right_) right_->start_at(wanted);
+            position_ = wanted;
+            return;
+        }
+        std::uint64_t behind = std::min(most_dropped, (wanted + length_ - position_) % length_);
+        if (position_ + behind >= length_) {
+            behind = position_ + behind - length_;
+            begin_again();
+        }
+        left_.skip(behind);
+        if (right_) right_->skip(behind);
+        position_ += behind;
+    }
+
     /// Next pair; empty once either video has ended.
     std::optional<StereoPair> next() {
         std::optional<ColourImage> left = left_.next();
@@ -107,7 +165,13 @@ class VideoMaterial final : public StereoMaterial {
         return StereoPair{std::move(*left), std::move(*right)};
     }
 
+    /// Frames that are dropped for one pulse at most.
+    static constexpr std::uint64_t most_dropped = 2;
+
     bool loop_;
+    bool has_started_ = false;
+    std::uint64_t length_ = 0;    ///< of a looping round; the shorter side ends it
+    std::uint64_t position_ = 0;  ///< number of the next frame in its round
     VideoRounds left_;
     std::unique_ptr<VideoRounds> right_;  ///< null: side by side
     cv::Size size_;
