@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <future>
 #include <memory>
@@ -6,10 +7,13 @@
 
 #include "common/av/video_reader.h"
 #include "common/base/error.h"
+#include "common/base/time/time.h"
 #include "rig_firmware/capture/material/stereo_material.h"
 
 namespace vantage {
 namespace {
+
+using namespace std::chrono_literals;
 
 /// Video that can restart any number of times. A separate thread opens the next round and decodes
 /// its first frame while this one plays, so that no pulse waits for it.
@@ -89,7 +93,7 @@ class VideoRounds {
 class VideoMaterial final : public StereoMaterial {
   public:
     explicit VideoMaterial(const RigConfig::Source& source)
-        : loop_(source.loop), left_(source.left, loop_) {
+        : loop_(source.loop), period_(from_s(1 / source.rate_hz)), left_(source.left, loop_) {
         size_ = left_.size();
         length_ = std::max<std::uint64_t>(1, left_.length());
         if (source.right.empty()) {
@@ -133,9 +137,9 @@ class VideoMaterial final : public StereoMaterial {
     }
 
     /// Moves on to the frame of this pulse, which is its number modulo the length of a round, so
-    /// that all rigs of a stage show frames of one number. Later it drops at most a few frames for
-    /// each pulse, since a computer that decodes more slowly than the pulses would fall behind
-    /// without limit.
+    /// that all rigs of a stage show frames of one number. After missed pulses it drops as many
+    /// frames as are decoded within one period. A computer that decodes more slowly than the pulses
+    /// drops none: it would fall behind without limit, and plays more slowly instead.
     void catch_up(std::uint64_t pulse_index) {
         const std::uint64_t wanted = pulse_index % length_;
         if (position_ >= length_) begin_again();
@@ -145,7 +149,7 @@ class VideoMaterial final : public StereoMaterial {
             position_ = wanted;
             return;
         }
-        std::uint64_t behind = std::min(most_dropped, (wanted + length_ - position_) % length_);
+        std::uint64_t behind = std::min(droppable(), (wanted + length_ - position_) % length_);
         if (position_ + behind >= length_) {
             behind = position_ + behind - length_;
             begin_again();
@@ -155,8 +159,26 @@ class VideoMaterial final : public StereoMaterial {
         position_ += behind;
     }
 
+    /// Frames that can be decoded within one period beside the one that is shown.
+    std::uint64_t droppable() const {
+        constexpr std::int64_t most = 100;
+        return static_cast<std::uint64_t>(
+            std::clamp<std::int64_t>(period_ / std::max(decoding_, 1ns) - 1, 0, most));
+    }
+
     /// Next pair; empty once either video has ended.
     std::optional<StereoPair> next() {
+        const MonotonicTime begun = MonotonicClock::now();
+        std::optional<StereoPair> pair = decode();
+        // The first frame of a round and the one after a search are decoded already.
+        constexpr std::uint64_t decoded_already = 2;
+        const std::chrono::nanoseconds taken = MonotonicClock::now() - begun;
+        if (++decoded_ > decoded_already && position_ > 1)
+            decoding_ = decoding_ == 0ns ? taken : (4 * decoding_ + taken) / 5;
+        return pair;
+    }
+
+    std::optional<StereoPair> decode() {
         std::optional<ColourImage> left = left_.next();
         if (!left) return std::nullopt;
         if (!right_) return split_side_by_side(*left, left_.path());
@@ -165,13 +187,13 @@ class VideoMaterial final : public StereoMaterial {
         return StereoPair{std::move(*left), std::move(*right)};
     }
 
-    /// Frames that are dropped for one pulse at most.
-    static constexpr std::uint64_t most_dropped = 2;
-
     bool loop_;
     bool has_started_ = false;
     std::uint64_t length_ = 0;    ///< of a looping round; the shorter side ends it
     std::uint64_t position_ = 0;  ///< number of the next frame in its round
+    std::chrono::nanoseconds period_;
+    std::chrono::nanoseconds decoding_{0};  ///< smoothed time that a pair takes; 0: not known yet
+    std::uint64_t decoded_ = 0;
     VideoRounds left_;
     std::unique_ptr<VideoRounds> right_;  ///< null: side by side
     cv::Size size_;
