@@ -10,7 +10,10 @@
 #include "calib_tools/interchange/calibration_import.h"
 #include "calib_tools/report/calibration_text.h"
 #include "common/base/cli/command.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
+#include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"
 #include "common/config/intrinsics_file.h"
@@ -24,7 +27,8 @@ struct ForeignImportOptions {
     std::string output, unit;
     std::vector<int> size;
     ImportSettings settings;
-    bool json = false;
+    std::string up = "y";
+    bool all = false, json = false;
 };
 
 double metres_per(const std::string& unit) {
@@ -63,17 +67,75 @@ void describe_import(const ImportedCalibration& imported, const std::optional<Ro
     std::cout << text;
 }
 
+/// Writes a lens file for each camera, and a stage file with their places.
+void import_all(const ForeignImportOptions& options, const std::vector<FormFile>& files,
+                const ImportSettings& settings) {
+    if (!options.check.empty()) fail("--check is for a rig, and --all takes single cameras");
+    const ImportedCameras imported = import_cameras(files, settings, options.up);
+    const std::filesystem::path folder = options.output;
+    make_folder(folder);
+    const std::string tool = fmt::format("vantage-calib import, from {}", imported.program);
+    std::string stage = fmt::format("# Written by {}.\nversion = 1\n", tool);
+    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    for (const StageCamera& camera : imported.cameras) {
+        const std::string file = camera.name + ".yaml";
+        save_intrinsics(
+            folder / file, camera.model,
+            {.date = date_now(),
+             .tool = tool,
+             .sigma = {.distortion = std::vector<double>(camera.model.distortion.size())}});
+        stage += '\n' + stage_camera_text(camera, file);
+        names.push_back(camera.name);
+    }
+    write_text_atomically(folder / "stage.toml", stage);
+    log_info("{} and {} written", (folder / "stage.toml").string(),
+             counted(imported.cameras.size(), "lens file"));
+    if (options.json) {
+        std::cout << nlohmann::ordered_json{{"path", (folder / "stage.toml").string()},
+                                            {"program", imported.program},
+                                            {"cameras", names},
+                                            {"taken", imported.taken},
+                                            {"assumed", imported.assumed},
+                                            {"left_out", imported.left_out}}
+                         .dump(2)
+                  << '\n';
+        return;
+    }
+    ImportedCalibration report;
+    report.program = imported.program;
+    report.taken = imported.taken;
+    report.assumed = imported.assumed;
+    report.left_out = imported.left_out;
+    describe_import(report, std::nullopt);
+    std::cout << "Next: name each camera's 'source' in the stage file, then form rigs with\n"
+                 "  vantage-calib stage --pairs auto --stage "
+              << (folder / "stage.toml").string() << " -o FOLDER\n";
+}
+
 void import_foreign(const ForeignImportOptions& options) {
     ImportSettings settings = options.settings;
     settings.metres_per_unit = metres_per(options.unit);
     if (!options.size.empty()) settings.form.size_px = cv::Size(options.size[0], options.size[1]);
     const std::vector<FormFile> files = load_form_files(options.files);
-    const ImportedCalibration imported = import_calibration(files, settings);
+    if (options.all) {
+        import_all(options, files, settings);
+        return;
+    }
+    ImportedCalibration imported = import_calibration(files, settings);
     std::optional<RowAgreement> rows;
     if (!options.check.empty()) {
         if (!imported.rig) fail("--check needs a rig, and the files hold one camera");
         const auto [left, right] = read_colour_pair(options.check[0], options.check[1]);
         rows = check_rows(*imported.rig, left, right);
+        if (const std::optional<double> offset_px =
+                correct_row_offset(*imported.rig, settings.alpha, left, right, *rows)) {
+            imported.assumed.push_back(fmt::format(
+                "the rows of the right picture lie {:.2f} px {} than the file says, all alike: "
+                "its principal point is moved by as much",
+                std::abs(*offset_px), *offset_px > 0 ? "lower" : "higher"));
+            // The place that was assumed depends on the rectification.
+            assume_place(*imported.rig);
+        }
     }
     const std::string tool = fmt::format("vantage-calib import, from {}", imported.program);
     if (imported.rig)
@@ -130,11 +192,19 @@ CommandEntry import_command_entry() {
                          "files of one calibration, or the folder of a COLMAP model; known are: " +
                              known_programs())
             ->required();
-        command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
+        command
+            ->add_option("-o,--output", options->output,
+                         "calibration file to write (YAML); with --all a folder")
             ->required();
         command->add_option("--left", options->settings.left,
                             "name of the left camera, where the files have several");
         command->add_option("--right", options->settings.right, "name of the right camera");
+        command->add_flag("--all", options->all,
+                          "take every camera as a single camera of a stage: -o is a folder for a "
+                          "lens file each and stage.toml with their places");
+        command->add_option("--up", options->up, "--all: axis of the file's world that points up")
+            ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
+            ->capture_default_str();
         command
             ->add_option("--unit", options->unit,
                          "unit of the file's lengths, where its form defines none")

@@ -7,6 +7,7 @@
 #include "calib_tools/commands/board_options.h"
 #include "calib_tools/commands/live_option.h"
 #include "calib_tools/commands/rig_folders.h"
+#include "calib_tools/commands/stage_pairs.h"
 #include "calib_tools/live/board_film.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/stage/stage_calibration.h"
@@ -31,6 +32,8 @@ struct StageOptions {
     LiveOption live;
     std::string html;
     bool json = false;
+    std::string pairs;
+    StagePairsOptions single_cameras;
 };
 
 /// Board sightings by frame set; images with another size than the calibration are refused.
@@ -108,6 +111,15 @@ LiveFilm film_live(const StageOptions& options, const CalibrationBoards& boards,
 }
 
 void run(const StageOptions& options) {
+    if (!options.pairs.empty()) {
+        StagePairsOptions pairs = options.single_cameras;
+        pairs.output = options.output;
+        pairs.json = options.json;
+        form_stage_pairs(pairs);
+        return;
+    }
+    if (options.rigs.empty())
+        fail("which rigs? give --rig NAME=FOLDER for each, or --pairs auto for single cameras");
     const CalibrationBoards boards = options.board.boards();
     std::vector<StageRig> rigs;
     StageCalibration notes;
@@ -175,11 +187,10 @@ CommandEntry stage_command_entry() {
             "Find where every rig stands, from pictures of a board that rigs saw together");
         const auto options = std::make_shared<StageOptions>();
         options->board.add_to(*command);
-        command
-            ->add_option("--rig", options->rigs,
-                         "NAME=FOLDER, once a rig: calibration.yaml, left*N.png and right*N.png; "
-                         "equal numbers are equal instants (live: the folder keeps them)")
-            ->required();
+        command->add_option(
+            "--rig", options->rigs,
+            "NAME=FOLDER, once a rig: calibration.yaml, left*N.png and right*N.png; "
+            "equal numbers are equal instants (live: the folder keeps them)");
         command->add_option("--floor", options->floor,
                             "number of the pictures in which the board lies on the floor, at the "
                             "world's origin");
@@ -194,6 +205,38 @@ CommandEntry stage_command_entry() {
                           "leave lenses and baselines as each rig's own calibration has them");
         command->add_option("-o,--output", options->output, "folder for one NAME.yaml a rig")
             ->required();
+        PairLimits& limits = options->single_cameras.limits;
+        CLI::Option* pairs =
+            command
+                ->add_option("--pairs", options->pairs,
+                             "auto: form stereo rigs of the [[cameras]] of --stage that stand near "
+                             "enough; a calibration and a rig file each, and a stage file")
+                ->check(CLI::IsMember({"auto"}));
+        CLI::Option* stage = command
+                                 ->add_option("--stage", options->single_cameras.stage,
+                                              "stage file with [[cameras]], for --pairs")
+                                 ->needs(pairs);
+        pairs->needs(stage);
+        command
+            ->add_option("--most-angle-deg", limits.most_angle_deg,
+                         "--pairs: largest angle between the axes of a pair")
+            ->needs(pairs)
+            ->check(CLI::Range(1.0, 60.0))
+            ->capture_default_str();
+        command
+            ->add_option("--least-overlap", limits.least_overlap,
+                         "--pairs: smallest share of the view that both cameras have in common at "
+                         "the middle of the stage")
+            ->needs(pairs)
+            ->check(CLI::Range(0.05, 1.0))
+            ->capture_default_str();
+        command
+            ->add_option("--most-baseline-share", limits.most_baseline_share,
+                         "--pairs: largest baseline, relative to the distance of the middle of "
+                         "the stage")
+            ->needs(pairs)
+            ->check(CLI::Range(0.01, 2.0))
+            ->capture_default_str();
         command->add_option("--html", options->html, "report to write, a page for a browser");
         command->add_flag("--json", options->json, "write the result as JSON");
         command->callback([options] { run(*options); });

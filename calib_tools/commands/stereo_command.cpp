@@ -7,6 +7,7 @@
 #include "calib_tools/commands/lens_option.h"
 #include "calib_tools/commands/live_option.h"
 #include "calib_tools/live/board_film.h"
+#include "calib_tools/pictures/film_frames.h"
 #include "calib_tools/report/calibration_json.h"
 #include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
@@ -20,13 +21,16 @@
 namespace vantage {
 namespace {
 
+/// Frames of a video that are searched for the board, at most.
+constexpr std::size_t most_film_frames = 60;
+
 struct StereoOptions {
     BoardOptions board;
     LensOption lens;
     LiveRigOption live;
     std::vector<std::string> left, right;
     std::string output;
-    double alpha = 0;
+    double alpha = 0, far_m = 0;
     std::vector<int> rectified_size;
     std::string html;
     bool json = false;
@@ -35,7 +39,8 @@ struct StereoOptions {
 struct SeenPairs {
     std::vector<SeenPicture> left, right;
     std::vector<std::filesystem::path> alone;
-    std::string kept;  ///< see BoardFilm::kept
+    std::string kept;                        ///< see BoardFilm::kept
+    std::shared_ptr<FilmFrames> films = {};  ///< keeps the frames of videos
 };
 
 SeenPairs pairs_from_files(const StereoOptions& options, const BoardPattern& pattern) {
@@ -46,13 +51,28 @@ SeenPairs pairs_from_files(const StereoOptions& options, const BoardPattern& pat
     }
     if (lefts.empty() || rights.empty())
         fail("which pictures? give --left and --right, --rig NAME=FOLDER, or --live and --rig");
-    const PicturePairs pictures = pair_pictures(expand_pictures(lefts), expand_pictures(rights));
+    const std::filesystem::path left_film = film_among(lefts), right_film = film_among(rights);
+    if (left_film.empty() != right_film.empty())
+        fail(
+            "one side is a video and the other is not: give two videos, or pictures of both sides");
+    PicturePairs pictures;
+    SeenPairs result;
+    if (!left_film.empty()) {
+        result.films = std::make_shared<FilmFrames>(
+            std::vector<std::filesystem::path>{left_film, right_film}, most_film_frames);
+        pictures = pair_pictures(result.films->pictures()[0], result.films->pictures()[1]);
+    } else {
+        pictures = pair_pictures(expand_pictures(lefts), expand_pictures(rights));
+    }
     std::vector<std::filesystem::path> files;
     for (const auto& [left, right] : pictures.pairs) files.push_back(left);
     for (const auto& [left, right] : pictures.pairs) files.push_back(right);
     const std::vector<SeenPicture> seen = look_at_pictures(files, pattern);
     const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(pictures.pairs.size());
-    return {{seen.begin(), middle}, {middle, seen.end()}, pictures.alone, {}};
+    result.left.assign(seen.begin(), middle);
+    result.right.assign(middle, seen.end());
+    result.alone = pictures.alone;
+    return result;
 }
 
 SeenPairs pairs_from_rig(const StereoOptions& options, const BoardPattern& pattern) {
@@ -61,7 +81,7 @@ SeenPairs pairs_from_rig(const StereoOptions& options, const BoardPattern& patte
     BoardFilm film =
         film_board(rigs, {{0, true, "left", rig.folder}, {0, false, "right", rig.folder}}, pattern,
                    options.live.film(), all_see_board, lens_advice({"left", "right"}));
-    return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}, film.kept};
+    return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}, film.kept, {}};
 }
 
 void run(const StereoOptions& options) {
@@ -69,6 +89,7 @@ void run(const StereoOptions& options) {
     RigOptions rig_options;
     rig_options.family = options.lens.family();
     rig_options.alpha = options.alpha;
+    if (options.far_m > 0) rig_options.far_m = options.far_m;
     if (!options.rectified_size.empty()) {
         rig_options.rectified_width_px = options.rectified_size[0];
         rig_options.rectified_height_px = options.rectified_size[1];
@@ -112,9 +133,10 @@ CommandEntry stereo_command_entry() {
         const auto options = std::make_shared<StereoOptions>();
         options->board.add_to(*command);
         options->lens.add_to(*command);
-        command->add_option("--left", options->left, "left pictures: 'PATTERN', folder or files");
+        command->add_option("--left", options->left,
+                            "left pictures: 'PATTERN', folder, files or a video");
         command->add_option("--right", options->right,
-                            "right pictures: 'PATTERN', folder or files");
+                            "right pictures: 'PATTERN', folder, files or a video");
         options->live.add_to(*command);
         command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
             ->required();
@@ -123,6 +145,12 @@ CommandEntry stereo_command_entry() {
                          "rectified picture: 0 only valid pixels, 1 all raw pixels")
             ->check(CLI::Range(0.0, 1.0))
             ->capture_default_str();
+        command
+            ->add_option("--far-m", options->far_m,
+                         "distance in metres at which the disparity is 0, nothing beyond is "
+                         "measured (default: infinity, or twice the distance at which the axes of "
+                         "cameras that are toed in cross)")
+            ->check(CLI::PositiveNumber);
         command
             ->add_option("--rectified-size", options->rectified_size,
                          "WIDTH HEIGHT of the rectified pictures (default: as the raw ones)")

@@ -11,6 +11,7 @@
 #include "calib_tools/health/row_tracking.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
+#include "common/geometry/pair_aim.h"
 #include "common/geometry/rectification_map.h"
 #include "common/image/image_file.h"
 #include "common/rectification/rectify_reference.h"
@@ -163,10 +164,12 @@ void require_plausible(const FormCamera& camera) {
             camera.name, m.fx_px, m.width_px, m.height_px);
 }
 
-}  // namespace
+struct ReadCalibration {
+    CalibrationForm form;
+    FormCalibration read;
+};
 
-ImportedCalibration import_calibration(std::span<const FormFile> files,
-                                       const ImportSettings& settings) {
+ReadCalibration read_calibration(std::span<const FormFile> files, const ImportSettings& settings) {
     const std::optional<CalibrationForm> form = form_of_file(files.front());
     if (!form) {
         std::vector<std::string> known;
@@ -178,10 +181,44 @@ ImportedCalibration import_calibration(std::span<const FormFile> files,
         if (const auto other = form_of_file(file); !other || other->name != form->name)
             fail("{} is a calibration of {}, and {} is not: give the files of one calibration",
                  files.front().path.string(), form->program, file.path.string());
-    const FormCalibration read = form->read(files, settings.form);
+    FormCalibration read = form->read(files, settings.form);
     if (read.cameras.empty()) fail("{} holds no camera", files.front().path.string());
+    return {*form, std::move(read)};
+}
+
+/// Rotation from a world with this axis up to one with y up.
+Eigen::Matrix3d upright_from(const std::string& up) {
+    Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+    axis[up.back() - 'x'] = up.starts_with('-') ? -1 : 1;
+    const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+    // A half turn has no unique axis.
+    if (axis.dot(y) < -0.5) return Eigen::Vector3d(1, -1, -1).asDiagonal();
+    return Eigen::Quaterniond::FromTwoVectors(axis, y).toRotationMatrix();
+}
+
+/// The name with other characters than letters, digits, '-' and '_' replaced by '_'.
+std::string stage_name_of(const std::string& name, const std::vector<StageCamera>& others) {
+    constexpr std::size_t longest = 60;
+    std::string result = name.substr(0, longest);
+    for (char& c : result)
+        if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-') c = '_';
+    if (result.empty()) result = "camera";
+    const auto is_taken = [&](const std::string& candidate) {
+        return std::any_of(others.begin(), others.end(),
+                           [&](const StageCamera& other) { return other.name == candidate; });
+    };
+    std::string free = result;
+    for (int i = 2; is_taken(free); ++i) free = fmt::format("{}_{}", result, i);
+    return free;
+}
+
+}  // namespace
+
+ImportedCalibration import_calibration(std::span<const FormFile> files,
+                                       const ImportSettings& settings) {
+    const auto [form, read] = read_calibration(files, settings);
     ImportedCalibration result;
-    result.program = form->program;
+    result.program = form.program;
     result.left_out = read.left_out;
     result.assumed = read.assumed;
     if (read.cameras.size() == 1) {
@@ -205,16 +242,59 @@ ImportedCalibration import_calibration(std::span<const FormFile> files,
             pair.left.name, rig.left.width_px, rig.left.height_px, pair.right.name,
             rig.right.width_px, rig.right.height_px);
     compute_rectification(rig, settings.alpha);
+    const double far_m = suitable_far_m(rig);
+    compute_rectification_to(rig, settings.alpha, far_m);
     assume_place(rig);
     result.camera = rig.left;
     result.taken = {
         "left: " + lens_in_words(pair.left), "right: " + lens_in_words(pair.right),
         fmt::format("they stand {:.5g} m apart", rig.right_from_left.translation().norm())};
+    if (std::isfinite(far_m))
+        result.assumed.push_back(fmt::format(
+            "nothing beyond {:.3g} m is to be measured: the cameras are toed in by {:.1f} degrees, "
+            "and each side has its own principal point",
+            far_m, aim_of(rig).toe_in_deg));
     for (const FormCamera& camera : read.cameras)
         if (camera.name != pair.left.name && camera.name != pair.right.name &&
             read.cameras.size() < 12)
             result.left_out.push_back(fmt::format("the camera '{}'", camera.name));
     result.rig = rig;
+    return result;
+}
+
+ImportedCameras import_cameras(std::span<const FormFile> files, const ImportSettings& settings,
+                               const std::string& up) {
+    const auto [form, read] = read_calibration(files, settings);
+    ImportedCameras result;
+    result.program = form.program;
+    result.left_out = read.left_out;
+    std::erase_if(result.left_out, [](const std::string& sentence) {
+        return sentence.find("place of the cameras") != std::string::npos;
+    });
+    result.assumed = read.assumed;
+    const bool is_stated = settings.metres_per_unit > 0;
+    const double scale = is_stated ? settings.metres_per_unit : read.metres_per_unit;
+    if (read.unit_is_assumed && !is_stated)
+        result.assumed.emplace_back(
+            "lengths in metres, since the file states no unit (--unit says another)");
+    result.assumed.push_back(
+        fmt::format("the axis {} of the file's world points up (--up says another)", up));
+    const Eigen::Matrix3d upright = upright_from(up);
+    for (const FormCamera& read_camera : read.cameras) {
+        require_plausible(read_camera);
+        if (!read_camera.camera_from_frame)
+            fail("{} does not say where the camera '{}' stands, and single cameras need a place",
+                 files.front().path.string(), read_camera.name);
+        StageCamera camera;
+        camera.name = stage_name_of(read_camera.name, result.cameras);
+        camera.model = read_camera.model;
+        camera.world_from_camera = read_camera.camera_from_frame->inverse();
+        camera.world_from_camera.linear() = upright * camera.world_from_camera.linear();
+        camera.world_from_camera.translation() =
+            scale * (upright * camera.world_from_camera.translation());
+        result.taken.push_back("the camera " + lens_in_words(read_camera));
+        result.cameras.push_back(std::move(camera));
+    }
     return result;
 }
 
@@ -238,13 +318,31 @@ RowAgreement check_rows(const StereoCalibration& calibration, const ColourImage&
             "their own, too few to judge: the calibration does not fit these pictures, or they "
             "show little texture",
             rows.size());
-    std::vector<double> misses;
+    std::vector<double> misses, offsets;
     double squares = 0;
     for (const TrackedRow& row : rows) {
+        offsets.push_back(row.row_miss_px);
         misses.push_back(std::abs(row.row_miss_px));
         squares += row.row_miss_px * row.row_miss_px;
     }
-    return {rows.size(), median(misses), std::sqrt(squares / static_cast<double>(rows.size()))};
+    return {rows.size(), median(misses), std::sqrt(squares / static_cast<double>(rows.size())),
+            median(offsets)};
+}
+
+std::optional<double> correct_row_offset(StereoCalibration& calibration, double alpha,
+                                         const ColourImage& raw_left, const ColourImage& raw_right,
+                                         RowAgreement& rows) {
+    constexpr double least_offset_px = 0.5, most_left_over = 0.5;
+    if (std::abs(rows.offset_px) < least_offset_px) return std::nullopt;
+    StereoCalibration corrected = calibration;
+    const double offset_px = rows.offset_px * corrected.right.fy_px / corrected.rectified.f_px;
+    corrected.right.cy_px += offset_px;
+    compute_rectification_to(corrected, alpha, farthest_m(calibration.rectified));
+    const RowAgreement after = check_rows(corrected, raw_left, raw_right);
+    if (after.median_px > most_left_over * rows.median_px) return std::nullopt;
+    calibration = corrected;
+    rows = after;
+    return offset_px;
 }
 
 }  // namespace vantage

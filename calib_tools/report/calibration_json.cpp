@@ -1,5 +1,8 @@
 #include "calib_tools/report/calibration_json.h"
 
+#include <cmath>
+#include <string>
+
 #include "calib_tools/rig/guidance.h"
 
 namespace vantage {
@@ -116,6 +119,13 @@ json to_json(const RigCalibration& c) {
         {"width_px", r.width_px},     {"height_px", r.height_px},     {"f_px", r.f_px},
         {"cx_left_px", r.cx_left_px}, {"cx_right_px", r.cx_right_px}, {"cy_px", r.cy_px},
         {"baseline_m", r.baseline_m}};
+    result["aim"] = {{"toe_in_deg", c.aim.toe_in_deg},
+                     {"roll_deg", c.aim.roll_deg},
+                     {"crossing_m", c.aim.crossing_m > 0 ? json(c.aim.crossing_m) : json()}};
+    const double far_m = farthest_m(r);
+    result["far_m"] = std::isfinite(far_m) ? json(far_m) : json();
+    for (const int disparities : reported_disparities)
+        result["nearest_m"][std::to_string(disparities)] = nearest_m(r, disparities);
     return result;
 }
 

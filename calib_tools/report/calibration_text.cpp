@@ -1,6 +1,7 @@
 #include "calib_tools/report/calibration_text.h"
 
 #include <chrono>
+#include <cmath>
 
 #include <fmt/chrono.h>
 
@@ -40,6 +41,23 @@ std::string closing_lines(const Calibration& c) {
     return text;
 }
 
+/// How the cameras are aimed, and the distances that the disparities reach.
+std::string aim_lines(const RigCalibration& c) {
+    const RectifiedStereo& r = c.calibration.rectified;
+    std::string text = fmt::format("aim: toed in by {:.2f} degrees", c.aim.toe_in_deg);
+    if (c.aim.toe_in_deg < 0)
+        text = fmt::format("aim: turned apart by {:.2f} degrees", -c.aim.toe_in_deg);
+    if (c.aim.crossing_m > 0 && c.aim.crossing_m < 100)
+        text += fmt::format(", axes cross at {:.2f} m", c.aim.crossing_m);
+    text += fmt::format(", rolled by {:.2f} degrees\nreach:", c.aim.roll_deg);
+    for (const int disparities : reported_disparities)
+        text += fmt::format(" from {:.2f} m with {} disparities,", nearest_m(r, disparities),
+                            disparities);
+    const double far_m = farthest_m(r);
+    return text + (std::isfinite(far_m) ? fmt::format(" up to {:.2f} m\n", far_m)
+                                        : std::string(" up to infinity\n"));
+}
+
 }  // namespace
 
 std::string describe(const CameraCalibration& c) {
@@ -56,7 +74,8 @@ std::string describe(const RigCalibration& c) {
                c.bundle.rms_px(), c.row_rms_px, c.row_max_px, c.views_used, c.views_given,
                c.baseline_m, c.baseline_sigma_m) +
            camera_lines("left", c.calibration.left, c.uncertainty.cameras[0]) +
-           camera_lines("right", c.calibration.right, c.uncertainty.cameras[1]) + closing_lines(c);
+           camera_lines("right", c.calibration.right, c.uncertainty.cameras[1]) + aim_lines(c) +
+           closing_lines(c);
 }
 
 std::string date_now() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <tuple>
@@ -161,13 +162,13 @@ CameraViews shifted(const CameraViews& views, int by) {
 }
 
 /// Rotation of one sensor about its optical axis relative to the other.
-double roll_deg(const Pose& right_from_left) {
+double roll_between_deg(const Pose& right_from_left) {
     const Eigen::Matrix3d& r = right_from_left.linear();
     return std::atan2(r(1, 0) - r(0, 1), r(0, 0) + r(1, 1)) * 180 / std::numbers::pi;
 }
 
 void refuse_impossible_rig(const Pose& right_from_left) {
-    const double roll = roll_deg(right_from_left);
+    const double roll = roll_between_deg(right_from_left);
     if (std::abs(roll) > max_roll_deg)
         fail(
             "the right camera is turned by {:.0f} degrees about its axis against the left one, "
@@ -213,22 +214,36 @@ void align_numbering(std::vector<SeenPicture>& left, std::vector<SeenPicture>& r
     }
 }
 
-/// Warning about cameras that are toed in: they share little of their view where disparity is 0 at
-/// infinity, and their rectified images are enlarged until no pixel is empty. Empty if they are
-/// not.
-std::string doubt_rectification(const StereoCalibration& rig) {
+/// Warnings about cameras that are turned against each other: they share little of their view,
+/// their rectified images are enlarged until no pixel is empty, or one of them is rolled.
+std::vector<std::string> doubt_rectification(const StereoCalibration& rig, const PairAim& aim) {
+    std::vector<std::string> doubts;
     const double scale = static_cast<double>(rig.rectified.width_px) / rig.left.width_px;
     const double enlarged = rig.rectified.f_px / (scale * rig.left.fx_px);
     const double apart_deg =
         Eigen::AngleAxisd(Eigen::Matrix3d(rig.right_from_left.linear())).angle() * 180 /
         std::numbers::pi;
-    constexpr double most_enlarged = 1.4, most_apart_deg = 10;
-    if (enlarged < most_enlarged && apart_deg < most_apart_deg) return {};
-    return fmt::format(
-        "the rectified pictures are enlarged {:.1f} times and the cameras look {:.0f} degrees "
-        "apart: "
-        "much of what they see is cut off; mount them parallel, or keep more with --alpha 1",
-        enlarged, apart_deg);
+    constexpr double most_enlarged = 1.4, most_apart_deg = 10, most_level_roll_deg = 2;
+    if (enlarged >= most_enlarged || apart_deg >= most_apart_deg)
+        doubts.push_back(fmt::format(
+            "the rectified pictures are enlarged {:.1f} times and the cameras look {:.0f} degrees "
+            "apart: much of what they see is cut off; mount them parallel, or keep more with "
+            "--alpha 1",
+            enlarged, apart_deg));
+    const double far_m = farthest_m(rig.rectified);
+    if (std::isfinite(far_m))
+        doubts.push_back(fmt::format(
+            "the cameras are toed in by {:.1f} degrees and share {:.0f} % of their view far away: "
+            "each side has its own principal point, so that the disparity is 0 at {:.3g} m and "
+            "nothing beyond is measured; --far-m states another distance",
+            aim.toe_in_deg, 100 * shared_view(rig, std::numeric_limits<double>::infinity()),
+            far_m));
+    if (std::abs(aim.roll_deg) > most_level_roll_deg)
+        doubts.push_back(fmt::format(
+            "the right camera is rolled by {:.1f} degrees about its axis against the left one: "
+            "rectification turns both pictures by half of it; mount both level",
+            aim.roll_deg));
+    return doubts;
 }
 
 /// Removes the pairs that contradict most others from the series, each with its reason. Returns
@@ -416,6 +431,9 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
     frame.rectified.width_px = options.rectified_width_px;
     frame.rectified.height_px = options.rectified_height_px;
     compute_rectification(frame, options.alpha);
+    const double far_m = options.far_m.value_or(suitable_far_m(frame));
+    compute_rectification_to(frame, options.alpha, far_m);
+    result.aim = aim_of(frame);
     result.calibration = frame;
     const std::vector<double> rows = row_differences_px(frame, *pair);
     result.row_rms_px = root_mean_square(rows);
@@ -426,7 +444,7 @@ RigCalibration calibrate_rig(std::vector<SeenPicture> left, std::vector<SeenPict
         result.uncertainty.cameras[1].translation_m.cwiseProduct(translation.normalized()).norm();
     result.doubts = doubts_of(*pair, result.uncertainty,
                               {{"left", "right"}, chosen_held_out_px(lenses), alone_sigma_px});
-    if (std::string sentence = doubt_rectification(frame); !sentence.empty())
+    for (std::string& sentence : doubt_rectification(frame, result.aim))
         result.doubts.push_back(std::move(sentence));
     for (const int side : {0, 1})
         for (std::string& sentence : missing_pictures(*pair, side, side == 0 ? "left" : "right"))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "calib_tools/rig/lens_choice.h"
 #include "calib_tools/rig/pair_solver.h"
 #include "common/config/calibration_file.h"
+#include "common/geometry/pair_aim.h"
 
 namespace vantage {
 
@@ -21,6 +23,7 @@ struct RigOptions {
     const LensFamily* family = nullptr;  ///< null: chosen by held-out error
     double alpha = 0;  ///< of the rectification: 0 keeps only valid pixels, 1 keeps all
     int rectified_width_px = 0, rectified_height_px = 0;  ///< 0: like the raw images
+    std::optional<double> far_m = {};  ///< where the disparity is 0; empty: suitable_far_m()
 };
 
 struct CameraCalibration {
@@ -47,6 +50,7 @@ struct RigCalibration {
     PrintedBoard printed;
     double row_rms_px = 0, row_max_px = 0;
     double baseline_m = 0, baseline_sigma_m = 0;
+    PairAim aim;
 };
 
 /// Calibrates one camera from a series of images. Throws Error, in one sentence, if they do not

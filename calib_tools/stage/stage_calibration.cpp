@@ -228,7 +228,7 @@ void take_refined(const Bundle& bundle, const BundleUncertainty& uncertainty, st
     c.left = left.model;
     c.right = right.model;
     c.right_from_left = right.camera_from_rig;
-    compute_rectification(c, alpha);
+    compute_rectification_to(c, alpha, farthest_m(before.rectified));
     rig.refined = true;
     rig.focal_change = std::max(std::abs(c.left.fx_px / before.left.fx_px - 1),
                                 std::abs(c.right.fx_px / before.right.fx_px - 1));

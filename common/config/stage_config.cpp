@@ -86,6 +86,13 @@ void read_flight(TomlTable& table, StageConfig::Flight& flight) {
 StageConfig load_stage_config(const std::filesystem::path& path) {
     StageConfig config;
     read_toml_file(path, stage_config_version, [&](TomlTable& top) {
+        if (top.has("cameras") && !top.has("rigs"))
+            top.refuse("cameras",
+                       "are single cameras, and a show needs rigs: let vantage-calib stage --pairs "
+                       "auto form rigs of them, or render their outlines with vantage render "
+                       "--views STAGE.toml");
+        // Entries for vantage-calib and vantage render, see stage_cameras.h.
+        top.read_tables("cameras", [](TomlTable& camera) { camera.leave_others(); });
         top.require("rigs");
         top.read_tables("rigs", [&](TomlTable& t) { read_rig(t, config.rigs); });
         if (top.has("rigs") && config.rigs.empty())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <fnmatch.h>
@@ -79,6 +80,27 @@ Paths files_by_glob(const std::string& pattern) {
     return files;
 }
 
+/// The parts around the number of a name such as "left%d.png" or "left_%04d.png"; empty without
+/// one.
+std::optional<std::pair<std::string, std::string>> parts_around_number(const std::string& name) {
+    const std::size_t begin = name.find('%');
+    if (begin == std::string::npos) return std::nullopt;
+    std::size_t end = begin + 1;
+    if (end < name.size() && name[end] == '0') ++end;
+    while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end]))) ++end;
+    if (end >= name.size() || name[end] != 'd') return std::nullopt;
+    return std::pair(name.substr(0, begin), name.substr(end + 1));
+}
+
+bool has_number_between(const std::string& name, const std::string& before,
+                        const std::string& after) {
+    return name.size() > before.size() + after.size() && name.starts_with(before) &&
+           name.ends_with(after) &&
+           std::all_of(name.begin() + static_cast<std::ptrdiff_t>(before.size()),
+                       name.end() - static_cast<std::ptrdiff_t>(after.size()),
+                       [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
 /// A name that exists is that file or folder, whatever characters it has. Else the last part is the
 /// pattern, in a folder that exists under the name before it.
 Paths files_named(const std::string& name) {
@@ -94,6 +116,11 @@ Paths files_named(const std::string& name) {
     Paths files = files_in(folder.empty() ? "." : folder, [&](const auto& file) {
         return ::fnmatch(pattern.c_str(), file.filename().c_str(), FNM_PERIOD) == 0;
     });
+    // Numbered pictures, as the source of a rig names them.
+    if (const auto parts = parts_around_number(pattern); files.empty() && parts)
+        files = files_in(folder.empty() ? "." : folder, [&](const auto& file) {
+            return has_number_between(file.filename().string(), parts->first, parts->second);
+        });
     if (folder.empty())
         for (std::filesystem::path& file : files) file = file.filename();
     return files;

@@ -53,8 +53,26 @@ void join_everywhere(int fd, const SocketAddress& group, const std::string& what
 
 }  // namespace
 
+SocketAddress first_with_route(const std::vector<SocketAddress>& addresses,
+                               const std::string& what) {
+    std::string others;
+    for (const SocketAddress& address : addresses) {
+        // Connecting a datagram socket looks the route up and sends nothing.
+        const UniqueFd fd = udp_fd(address.family());
+        if (fd && ::connect(fd.get(), address.get(), address.size) == 0) {
+            if (!others.empty())
+                log_info("{}: sends to {}, since there is no way to {}", what, address.text(),
+                         others);
+            return address;
+        }
+        others += fmt::format("{}{} ({})", others.empty() ? "" : ", ", address.text(),
+                              std::strerror(errno));
+    }
+    return addresses.front();
+}
+
 SocketAddress resolve(const NetworkPlace& place, const std::string& what) {
-    return resolve_all(place.host, place.port, what).front();
+    return first_with_route(resolve_all(place.host, place.port, what), what);
 }
 
 UdpSocket UdpSocket::bound(const NetworkPlace& place, const std::string& what) {

@@ -15,8 +15,14 @@
 
 namespace vantage {
 
-/// Resolves a place to its first address. Throws Error, with `what` as the socket's name, if the
-/// name does not resolve.
+/// The first of several addresses that this computer can send to, which has a network of that
+/// family; the first of all if there is none. Names in the log the addresses before it. No datagram
+/// is sent. Precondition: at least one address.
+SocketAddress first_with_route(const std::vector<SocketAddress>& addresses,
+                               const std::string& what);
+
+/// Resolves a place to its first address with a route. Throws Error, with `what` as the socket's
+/// name, if the name does not resolve.
 SocketAddress resolve(const NetworkPlace& place, const std::string& what);
 
 /// UDP socket that never blocks when it sends.

@@ -75,8 +75,28 @@ TEST(CalibrationImport, TakesASingleCameraAndRefusesWhatIsNone) {
     EXPECT_THAT(refusal(row_of_cameras({"a", "b"}, 0)), HasSubstr("0"));
 }
 
+TEST(CalibrationImport, TakesAllCamerasWithTheirPlacesIntoAWorldWithYUp) {
+    const FormFile row = row_of_cameras({"a 1.png", "a/1.png", "b"}, 600);
+    ImportSettings settings;
+    settings.metres_per_unit = 0.001;
+    const ImportedCameras all = import_cameras(std::span(&row, 1), settings, "z");
+    ASSERT_EQ(all.cameras.size(), 3u);
+    EXPECT_EQ(all.cameras[0].name, "a_1_png");
+    EXPECT_EQ(all.cameras[1].name, "a_1_png_2") << "names are unique";
+    const Pose& third = all.cameras[2].world_from_camera;
+    EXPECT_NEAR(third.translation().x(), 1.2, 1e-12);
+    // The camera looked along -z of the file, so it looks down where z points up.
+    EXPECT_TRUE(third.linear().col(2).isApprox(-Eigen::Vector3d::UnitY(), 1e-9));
+    const ImportedCameras same = import_cameras(std::span(&row, 1), settings, "y");
+    EXPECT_TRUE(same.cameras[2].world_from_camera.linear().col(2).isApprox(
+        -Eigen::Vector3d::UnitZ(), 1e-9));
+    const ImportedCameras down = import_cameras(std::span(&row, 1), settings, "-y");
+    EXPECT_NEAR(down.cameras[0].world_from_camera.linear().determinant(), 1, 1e-9);
+    EXPECT_THAT(down.assumed, Contains(HasSubstr("--up")));
+}
+
 TEST(CalibrationImport, ChecksTheRowsOfPictures) {
-    const StereoCalibration rig = *imported(row_of_cameras({"a", "b"}, 0.1)).rig;
+    StereoCalibration rig = *imported(row_of_cameras({"a", "b"}, 0.1)).rig;
     ColourImage left(240, 320);
     cv::RNG random(4);
     cv::Mat3b small(60, 80), large;
@@ -93,6 +113,16 @@ TEST(CalibrationImport, ChecksTheRowsOfPictures) {
     EXPECT_GT(good.features, 20u);
     EXPECT_LT(good.median_px, 0.2);
     EXPECT_NEAR(check_rows(rig, left, shifted(-12, 3)).median_px, 3, 0.3);
+    // One whole row off, as a decoder may deliver it, is corrected at the right camera.
+    const double cy_px = rig.right.cy_px;
+    RowAgreement rows = check_rows(rig, left, shifted(-12, 1));
+    EXPECT_NEAR(rows.offset_px, 1, 0.1);
+    const auto offset_px = correct_row_offset(rig, 0, left, shifted(-12, 1), rows);
+    ASSERT_TRUE(offset_px);
+    EXPECT_NEAR(*offset_px, 1, 0.1);
+    EXPECT_NEAR(rig.right.cy_px, cy_px + 1, 0.1);
+    EXPECT_LT(rows.median_px, 0.2);
+    EXPECT_FALSE(correct_row_offset(rig, 0, left, shifted(-12, 1), rows)) << "they agree";
     EXPECT_THAT(thrown_sentence([&] { check_rows(rig, left.colRange(0, 100), left); }),
                 HasSubstr("100x240"));
 }

@@ -1,11 +1,13 @@
 #include "calib_tools/rig/rig_calibration.h"
 
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "calib_tools/report/calibration_json.h"
+#include "calib_tools/report/calibration_text.h"
 #include "common/base/error.h"
 #include "common/image/picture_list.h"
 #include "tests/support/data_folder.h"
@@ -146,6 +148,45 @@ TEST(RigCalibration, says_that_cameras_are_toed_in) {
     const RigCalibration c =
         calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("radial2")});
     EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("look 20 degrees apart")));
+    EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("the disparity is 0 at")));
+    EXPECT_NEAR(std::abs(c.aim.toe_in_deg), 20, 0.5);
+    const RectifiedStereo& own = c.calibration.rectified;
+    EXPECT_NEAR(farthest_m(own), 2 * c.aim.crossing_m, 1e-6);
+    const std::string text = describe(c);
+    EXPECT_THAT(text, HasSubstr("aim: toed in by"));
+    EXPECT_THAT(text, HasSubstr("with 64 disparities"));
+    // The user's distance wins, and infinity gives both sides one principal point.
+    const RigCalibration far = calibrate_rig(
+        series.left, series.right, chessboard,
+        {.family = &lens_family("radial2"), .far_m = std::numeric_limits<double>::infinity()});
+    EXPECT_EQ(far.calibration.rectified.doffs_px(), 0);
+    EXPECT_GT(far.calibration.rectified.f_px, own.f_px) << "more is cut off";
+}
+
+TEST(RigCalibration, names_the_roll_of_the_right_camera) {
+    SyntheticRig rig;
+    rig.right_from_left.linear() =
+        Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    SyntheticViews views(chessboard, 0.05);
+    const SyntheticRig::Series series = rig.film(views, 12);
+    const RigCalibration c =
+        calibrate_rig(series.left, series.right, chessboard, {.family = &lens_family("radial2")});
+    EXPECT_THAT(c.doubts, testing::Contains(HasSubstr("rolled by 5.7 degrees")));
+}
+
+TEST(RigCalibration, takes_up_a_row_that_one_side_is_off) {
+    SyntheticViews views(chessboard, 0.05);
+    SyntheticRig::Series series = SyntheticRig().film(views, 12);
+    const auto calibrate = [&] {
+        return calibrate_rig(series.left, series.right, chessboard,
+                             {.family = &lens_family("radial2")});
+    };
+    const RigCalibration before = calibrate();
+    for (SeenPicture& picture : series.right)
+        for (BoardCorner& corner : picture.sighting.corners) corner.pixel.y() += 1;
+    const RigCalibration off = calibrate();
+    EXPECT_NEAR(off.calibration.right.cy_px - before.calibration.right.cy_px, 1, 0.01);
+    EXPECT_NEAR(off.row_rms_px, before.row_rms_px, 0.01);
 }
 
 TEST(RigCalibration, uses_or_names_every_pair) {

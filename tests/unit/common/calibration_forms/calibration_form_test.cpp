@@ -269,6 +269,106 @@ TEST(AniposeForm, ReadsTablesWithPoses) {
     EXPECT_TRUE(read.unit_is_assumed);
 }
 
+/// The text of an element for a camera of this rig, as Qualisys writes them.
+std::string qualisys_camera(const CameraModel& camera, const Pose& world_from_camera, int serial) {
+    const Eigen::Matrix3d rows =
+        Eigen::Vector3d(1, -1, -1).asDiagonal() * world_from_camera.linear().transpose();
+    const Eigen::Vector3d mm = 1000 * world_from_camera.translation();
+    std::string text = fmt::format(
+        "<camera active=\"1\" serial=\"{}\" model=\"Miqus Video\" viewrotation=\"0\">\n"
+        "<fov_video left=\"0\" top=\"0\" right=\"{}\" bottom=\"{}\"/>\n<transform x=\"{}\" "
+        "y=\"{}\" z=\"{}\"",
+        serial, camera.width_px - 1, camera.height_px - 1, mm.x(), mm.y(), mm.z());
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            text += fmt::format(" r{}{}=\"{}\"", row + 1, column + 1, rows(row, column));
+    const std::vector<double>& d = camera.distortion;
+    return text +
+           fmt::format(
+               "/>\n<intrinsic focallength=\"9.27\" sensorMinU=\"0\" sensorMaxU=\"{}\" "
+               "sensorMinV=\"0\" sensorMaxV=\"{}\" focalLengthU=\"{}\" focalLengthV=\"{}\" "
+               "centerPointU=\"{}\" centerPointV=\"{}\" skew=\"0\" radialDistortion1=\"{}\" "
+               "radialDistortion2=\"{}\" radialDistortion3=\"0\" tangentalDistortion1=\"{}\" "
+               "tangentalDistortion2=\"{}\"/>\n</camera>\n",
+               camera.width_px * 64 - 1, camera.height_px * 64 - 1, 64 * camera.fx_px,
+               64 * camera.fy_px, 64 * camera.cx_px, 64 * camera.cy_px, d[0], d[1], d[2], d[3]);
+}
+
+TEST(QualisysForm, ComesBackInMetresWithItsWorld) {
+    const StereoCalibration rig = some_rig(LensModel::pinhole, 4);
+    const Pose right = rig.world_from_left * rig.right_from_left.inverse();
+    const std::string calibration =
+        "<calibration source=\"a.qca\" type=\"regular\"><results std-dev=\"0.6\"/>\n<cameras>\n" +
+        qualisys_camera(rig.left, rig.world_from_left, 21386) +
+        qualisys_camera(rig.right, right, 21387) + "</cameras></calibration>\n";
+    for (const std::string& text :
+         {"<?xml version=\"1.0\"?>\n" + calibration,
+          "<QTM_Parameters_Ver_1.25>" + calibration + "</QTM_Parameters_Ver_1.25>"}) {
+        FormCalibration read = read_one("lab.qca.txt", text);
+        EXPECT_FALSE(read.unit_is_assumed);
+        for (FormCamera& camera : read.cameras)
+            camera.camera_from_frame->translation() *= read.metres_per_unit;
+        expect_same_rig(rig, read, "qualisys");
+        EXPECT_EQ(read.cameras[1].name, "21387");
+        EXPECT_LT(
+            (read.cameras[0].camera_from_frame->inverse().matrix() - rig.world_from_left.matrix())
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-9);
+    }
+    std::string without = calibration;
+    without.replace(without.find("r22="), 4, "q22=");
+    EXPECT_THAT(thrown_sentence([&] { read_one("lab.qca.txt", without); }), HasSubstr("r22"));
+}
+
+TEST(MetashapeForm, ComesBackWithItsScaleAndOrigin) {
+    StereoCalibration rig = some_rig(LensModel::pinhole, 5);
+    // Metashape has one sensor for cameras with one lens.
+    const auto sensor = [](int id, const CameraModel& c) {
+        const std::vector<double>& d = c.distortion;
+        return fmt::format(
+            "<sensor id=\"{}\" label=\"unknown\" type=\"frame\"><resolution width=\"{}\" "
+            "height=\"{}\"/><calibration type=\"frame\" class=\"adjusted\"><resolution "
+            "width=\"{}\" height=\"{}\"/><f>{}</f><cx>{}</cx><cy>{}</cy><b1>{}</b1><k1>{}</k1>"
+            "<k2>{}</k2><k3>{}</k3><p1>{}</p1><p2>{}</p2></calibration></sensor>\n",
+            id, c.width_px, c.height_px, c.width_px, c.height_px, c.fy_px,
+            c.cx_px + 0.5 - c.width_px / 2.0, c.cy_px + 0.5 - c.height_px / 2.0, c.fx_px - c.fy_px,
+            d[0], d[1], d[4], d[3], d[2]);
+    };
+    constexpr double metres_per_unit = 0.25;
+    const auto camera = [](int id, const Pose& place) {
+        std::string numbers;
+        for (int row = 0; row < 4; ++row)
+            for (int column = 0; column < 4; ++column)
+                numbers += fmt::format("{} ", column == 3 && row < 3
+                                                  ? place.matrix()(row, column) / metres_per_unit
+                                                  : place.matrix()(row, column));
+        return fmt::format(
+            "<camera id=\"{}\" sensor_id=\"{}\" component_id=\"0\" label=\"IMG {}\">"
+            "<transform>{}</transform></camera>\n",
+            id, id, id, numbers);
+    };
+    const std::string text =
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<document version=\"1.5.0\">\n<chunk "
+        "label=\"Chunk 1\" enabled=\"true\"><sensors next_id=\"2\">" +
+        sensor(0, rig.left) + sensor(1, rig.right) +
+        "</sensors><components next_id=\"1\"><component id=\"0\"><transform><rotation>1 0 0 0 1 0 "
+        "0 0 1</rotation><translation>5 6 7</translation><scale>0.25</scale></transform>"
+        "</component></components><cameras next_id=\"3\">" +
+        camera(0, rig.world_from_left) +
+        camera(1, rig.world_from_left * rig.right_from_left.inverse()) +
+        "<camera id=\"2\" sensor_id=\"0\" label=\"IMG 2\"/></cameras></chunk></document>\n";
+    FormCalibration read = read_one("cameras.xml", text);
+    EXPECT_EQ(read.metres_per_unit, metres_per_unit);
+    for (FormCamera& one : read.cameras)
+        one.camera_from_frame->translation() *= read.metres_per_unit;
+    expect_same_rig(rig, read, "metashape");
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'IMG 2', which is not aligned")));
+    std::string fisheye = text;
+    fisheye.replace(fisheye.find("calibration type=\"frame\""), 24, "calibration type=\"fisheye\"");
+    EXPECT_THAT(thrown_sentence([&] { read_one("cameras.xml", fisheye); }), HasSubstr("'fisheye'"));
+}
+
 TEST(ColmapForm, TakesHalfPixelsAndNamesWithSpaces) {
     const std::vector<FormFile> files{
         form_file_of("images.txt",

@@ -33,7 +33,7 @@ std::vector<std::string> undocumented(const std::filesystem::path& example,
     std::vector<std::string> missing;
     for (const std::string& key : keys)
         if (!std::regex_search(
-                content, std::regex("(^|\n)(# |\\[|\\[\\[|\\[source\\.)?" + key + "(\\]| = )")))
+                content, std::regex("(^|\n)(# )?(\\[|\\[\\[|\\[source\\.)?" + key + "(\\]| = )")))
             missing.push_back(key);
     return missing;
 }

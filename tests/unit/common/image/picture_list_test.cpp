@@ -48,6 +48,19 @@ TEST_F(PictureListTest, FoldersAreTakenByTheirNames) {
     }
 }
 
+TEST_F(PictureListTest, ANumberIsWrittenAsInTheSourceOfARig) {
+    const auto two = touch("left_0002.png"), ten = touch("left_10.png");
+    touch("left_x.png");
+    touch("left_.png");
+    touch("right_2.png");
+    for (const char* name : {"left_%d.png", "left_%04d.png"})
+        EXPECT_THAT(found(name), ElementsAre(two, ten)) << name;
+    const auto percent = touch("left_%d.png");
+    EXPECT_THAT(found("left_%d.png"), ElementsAre(percent)) << "a file of that very name";
+    EXPECT_NE(thrown_sentence([&] { found("other%d.png"); }).find("no file matches"),
+              std::string::npos);
+}
+
 TEST_F(PictureListTest, OnlyTheLastPartIsAPattern) {
     touch("rig1/left1.png");
     const auto bracketed = touch("rig[1]/left2.png");

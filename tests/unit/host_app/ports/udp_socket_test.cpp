@@ -45,6 +45,19 @@ TEST(UdpSocket, OfAllIpv6AddressesHearsIpv4Too) {
     EXPECT_TRUE(socket.receive(5s));
 }
 
+TEST(UdpSocket, SendsToTheFirstAddressOfANameThatHasARoute) {
+    const SocketAddress own = resolve_all("127.0.0.1", 9, "the test").front();
+    // A socket may not send to all computers unless it is told so.
+    const SocketAddress closed = resolve_all("255.255.255.255", 9, "the test").front();
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(first_with_route({closed, own}, "the test").text(), "127.0.0.1:9");
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_NE(log.find("no way to 255.255.255.255:9"), std::string::npos) << log;
+    EXPECT_EQ(first_with_route({own, closed}, "the test").text(), "127.0.0.1:9");
+    EXPECT_EQ(first_with_route({closed}, "the test").text(), "255.255.255.255:9")
+        << "the only address";
+}
+
 TEST(UdpSocket, JoinsAGroup) {
     const int port = two_free_ports().first;
     UdpSocket socket = UdpSocket::bound({"239.255.77.3", port, false}, "the test");

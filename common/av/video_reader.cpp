@@ -1,4 +1,6 @@
-#include "rig_firmware/capture/material/video_reader.h"
+#include "common/av/video_reader.h"
+
+#include <utility>
 
 #include "common/av/av_handles.h"
 #include "common/av/av_log.h"
@@ -33,14 +35,48 @@ struct VideoReader::Impl {
             fail("the video of {} cannot be decoded: {}", path, av_reason(code));
     }
 
-    std::optional<ColourImage> next() {
+    /// Decodes the next frame to frame_. Returns false at the end.
+    bool decode() {
+        if (std::exchange(has_pending_, false)) return true;
         for (;;) {
             const int code = avcodec_receive_frame(codec_.get(), frame_.get());
-            if (code == 0) return to_colour();
-            if (code == AVERROR_EOF) return std::nullopt;
+            if (code == 0) return true;
+            if (code == AVERROR_EOF) return false;
             if (code != AVERROR(EAGAIN)) fail("{} is damaged: {}", path_, av_reason(code));
             feed();
         }
+    }
+
+    bool seek(std::uint64_t frame) {
+        const AVStream* stream = format_->streams[stream_];
+        const AVRational rate = stream->avg_frame_rate;
+        if (rate.num <= 0 || rate.den <= 0 || av_cmp_q(rate, stream->r_frame_rate) != 0)
+            return false;
+        const std::int64_t start = stream->start_time == AV_NOPTS_VALUE ? 0 : stream->start_time;
+        const std::int64_t period = av_rescale_q(1, av_inv_q(rate), stream->time_base);
+        const std::int64_t wanted = start + av_rescale_q(static_cast<std::int64_t>(frame),
+                                                         av_inv_q(rate), stream->time_base);
+        if (av_seek_frame(format_.get(), stream_, wanted, AVSEEK_FLAG_BACKWARD) < 0) return false;
+        avcodec_flush_buffers(codec_.get());
+        has_pending_ = false;
+        while (decode()) {
+            const std::int64_t time = frame_->best_effort_timestamp;
+            if (time == AV_NOPTS_VALUE || time > wanted + period / 2) return false;
+            if (time >= wanted - period / 2) return has_pending_ = true;
+        }
+        return false;
+    }
+
+    std::uint64_t count() {
+        const std::int64_t stated = format_->streams[stream_]->nb_frames;
+        if (stated > 0) return static_cast<std::uint64_t>(stated);
+        std::uint64_t frames = 0;
+        while (av_read_frame(format_.get(), packet_.get()) >= 0) {
+            if (packet_->stream_index == stream_ && !(packet_->flags & AV_PKT_FLAG_DISCARD))
+                ++frames;
+            av_packet_unref(packet_.get());
+        }
+        return frames;
     }
 
     /// Sends the next packet of the video to the decoder, or the end of the stream.
@@ -85,6 +121,7 @@ struct VideoReader::Impl {
     AvFramePtr frame_;
     AvPacketPtr packet_;
     int stream_ = -1;
+    bool has_pending_ = false;  ///< frame_ is the next one
 };
 
 VideoReader::VideoReader(const std::string& path) {
@@ -95,7 +132,20 @@ VideoReader::VideoReader(const std::string& path) {
 
 VideoReader::~VideoReader() = default;
 
-std::optional<ColourImage> VideoReader::next() { return impl_->next(); }
+std::optional<ColourImage> VideoReader::next() {
+    if (!impl_->decode()) return std::nullopt;
+    return impl_->to_colour();
+}
+
+bool VideoReader::skip(std::uint64_t frames) {
+    for (; frames > 0; --frames)
+        if (!impl_->decode()) return false;
+    return true;
+}
+
+bool VideoReader::seek(std::uint64_t frame) { return impl_->seek(frame); }
+
+std::uint64_t VideoReader::count() { return impl_->count(); }
 
 const char* VideoReader::codec_name() const { return impl_->codec_->codec->name; }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +18,17 @@ class VideoReader {
 
     /// Next frame; empty at the end. Throws Error for a frame that is damaged or too large.
     std::optional<ColourImage> next();
+
+    /// Decodes and drops frames. Returns false if the video ends before them.
+    bool skip(std::uint64_t frames);
+
+    /// Makes this frame the next one, by its time. Returns false, with the reader at any place, if
+    /// the file has no constant rate or cannot be searched.
+    bool seek(std::uint64_t frame);
+
+    /// Number of frames, as the file states it or counted in the file without decoding them; the
+    /// decoder may deliver fewer. Call it before next().
+    std::uint64_t count();
 
     const char* codec_name() const;
     /// Frame rate of the file in frames per second; 0 if it states none.
