@@ -77,7 +77,7 @@ void import_all(const ForeignImportOptions& options, const std::vector<FormFile>
     const std::string tool = fmt::format("vantage-calib import, from {}", imported.program);
     std::string stage = fmt::format("# Written by {}.\nversion = 1\n", tool);
     nlohmann::ordered_json names = nlohmann::ordered_json::array();
-    for (const ListedCamera& camera : imported.cameras) {
+    for (const SingleCamera& camera : imported.cameras) {
         const std::string file = camera.name + ".yaml";
         save_intrinsics(
             folder / file, camera.model,

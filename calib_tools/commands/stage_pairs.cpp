@@ -22,13 +22,13 @@ namespace {
 
 constexpr int first_port = 5600;
 
-std::string name_of(const CameraPair& pair, const std::vector<ListedCamera>& cameras) {
+std::string name_of(const CameraPair& pair, const std::vector<SingleCamera>& cameras) {
     constexpr std::size_t longest_name = 64;
     return (cameras[pair.left].name + "-" + cameras[pair.right].name).substr(0, longest_name);
 }
 
 /// The lines of [source] that play or open both cameras.
-std::string source_lines(const ListedCamera& left, const ListedCamera& right) {
+std::string source_lines(const SingleCamera& left, const SingleCamera& right) {
     if (left.source.empty() || right.source.empty())
         return "kind = \"files\"\n# The stage file names no source of these cameras.\n"
                "# left = \"left.mp4\"\n# right = \"right.mp4\"\n";
@@ -46,8 +46,8 @@ std::string source_lines(const ListedCamera& left, const ListedCamera& right) {
                        absolute(right.source));
 }
 
-std::string rig_text(const CameraPair& pair, const std::vector<ListedCamera>& cameras, int port) {
-    const ListedCamera &left = cameras[pair.left], &right = cameras[pair.right];
+std::string rig_text(const CameraPair& pair, const std::vector<SingleCamera>& cameras, int port) {
+    const SingleCamera &left = cameras[pair.left], &right = cameras[pair.right];
     return fmt::format(
         "# A rig of the cameras {} and {}: vantage-rig run --config THIS_FILE.\n"
         "version = 1\nname = \"{}\"\ncalibration = \"{}.yaml\"\n\n"
@@ -58,7 +58,7 @@ std::string rig_text(const CameraPair& pair, const std::vector<ListedCamera>& ca
         port);
 }
 
-std::string pair_sentence(const CameraPair& pair, const std::vector<ListedCamera>& cameras) {
+std::string pair_sentence(const CameraPair& pair, const std::vector<SingleCamera>& cameras) {
     const RectifiedStereo& r = pair.calibration.rectified;
     const double far_m = farthest_m(r);
     return fmt::format(
@@ -81,7 +81,7 @@ std::string limits_sentence(const PairLimits& limits) {
 }
 
 nlohmann::ordered_json to_json(const CameraPairs& formed,
-                               const std::vector<ListedCamera>& cameras) {
+                               const std::vector<SingleCamera>& cameras) {
     nlohmann::ordered_json result{{"rigs", nlohmann::ordered_json::array()},
                                   {"singles", nlohmann::ordered_json::array()}};
     for (const CameraPair& pair : formed.pairs)
@@ -103,7 +103,7 @@ nlohmann::ordered_json to_json(const CameraPairs& formed,
 }  // namespace
 
 void form_stage_pairs(const StagePairsOptions& options) {
-    const std::vector<ListedCamera> cameras = load_stage_cameras(options.stage);
+    const std::vector<SingleCamera> cameras = load_stage_cameras(options.stage);
     const CameraPairs formed = form_pairs(cameras, options.limits, options.alpha);
     if (formed.pairs.empty()) {
         std::string reasons;
@@ -131,7 +131,7 @@ void form_stage_pairs(const StagePairsOptions& options) {
         log_info("{} and {}.yaml written", (folder / (name + ".toml")).string(), name);
     }
     for (const CameraPairs::Single& single : formed.singles) {
-        ListedCamera camera = cameras[single.camera];
+        SingleCamera camera = cameras[single.camera];
         const std::string file = camera.name + ".yaml";
         save_intrinsics(
             folder / file, camera.model,

@@ -197,7 +197,7 @@ Eigen::Matrix3d upright_from(const std::string& up) {
 }
 
 /// The name with other characters than letters, digits, '-' and '_' replaced by '_'.
-std::string stage_name_of(const std::string& name, const std::vector<ListedCamera>& others) {
+std::string stage_name_of(const std::string& name, const std::vector<SingleCamera>& others) {
     constexpr std::size_t longest = 60;
     std::string result = name.substr(0, longest);
     for (char& c : result)
@@ -205,7 +205,7 @@ std::string stage_name_of(const std::string& name, const std::vector<ListedCamer
     if (result.empty()) result = "camera";
     const auto is_taken = [&](const std::string& candidate) {
         return std::any_of(others.begin(), others.end(),
-                           [&](const ListedCamera& other) { return other.name == candidate; });
+                           [&](const SingleCamera& other) { return other.name == candidate; });
     };
     std::string free = result;
     for (int i = 2; is_taken(free); ++i) free = fmt::format("{}_{}", result, i);
@@ -285,7 +285,7 @@ ImportedCameras import_cameras(std::span<const FormFile> files, const ImportSett
         if (!read_camera.camera_from_frame)
             fail("{} does not say where the camera '{}' stands, and single cameras need a place",
                  files.front().path.string(), read_camera.name);
-        ListedCamera camera;
+        SingleCamera camera;
         camera.name = stage_name_of(read_camera.name, result.cameras);
         camera.model = read_camera.model;
         camera.world_from_camera = read_camera.camera_from_frame->inverse();

@@ -36,7 +36,7 @@ ImportedCalibration import_calibration(std::span<const FormFile> files,
 
 /// All cameras of a calibration, each with its place.
 struct ImportedCameras {
-    std::vector<ListedCamera> cameras;  ///< without sources
+    std::vector<SingleCamera> cameras;  ///< without sources
     std::string program;
     std::vector<std::string> taken, left_out, assumed;  ///< for the report
 };

@@ -17,13 +17,13 @@ constexpr int most_disparities = 256;  ///< of the matcher
 constexpr double nearest_share_of_stage = 0.6;
 constexpr double degrees_of_radian = 180 / std::numbers::pi;
 
-Eigen::Vector3d axis_of(const ListedCamera& camera) {
+Eigen::Vector3d axis_of(const SingleCamera& camera) {
     return camera.world_from_camera.linear().col(2);
 }
 
 /// The first limit that the pair breaks; empty if it breaks none.
-std::string broken_limit(const CameraPair& pair, const ListedCamera& left,
-                         const ListedCamera& right, const PairLimits& limits) {
+std::string broken_limit(const CameraPair& pair, const SingleCamera& left,
+                         const SingleCamera& right, const PairLimits& limits) {
     const CameraModel &l = left.model, &r = right.model;
     if (l.width_px != r.width_px || l.height_px != r.height_px)
         return fmt::format("{}x{} and {}x{}: both cameras of a rig need pictures of one size",
@@ -74,16 +74,16 @@ void rectify_for_matcher(CameraPair& pair, double alpha) {
 
 }  // namespace
 
-Eigen::Vector3d middle_of_stage(const std::vector<ListedCamera>& cameras) {
+Eigen::Vector3d middle_of_stage(const std::vector<SingleCamera>& cameras) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-    for (const ListedCamera& camera : cameras) {
+    for (const SingleCamera& camera : cameras) {
         const Eigen::Vector3d axis = axis_of(camera);
         const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
         sum += across;
         weighted += across * camera.world_from_camera.translation();
     }
-    const ListedCamera& first = cameras.front();
+    const SingleCamera& first = cameras.front();
     constexpr double least_determinant = 1e-4, usual_m = 3;
     if (sum.determinant() > least_determinant) {
         const Eigen::Vector3d middle = sum.inverse() * weighted;
@@ -92,7 +92,7 @@ Eigen::Vector3d middle_of_stage(const std::vector<ListedCamera>& cameras) {
     return first.world_from_camera * Eigen::Vector3d(0, 0, usual_m);
 }
 
-CameraPair pair_of(const std::vector<ListedCamera>& cameras, std::size_t a, std::size_t b,
+CameraPair pair_of(const std::vector<SingleCamera>& cameras, std::size_t a, std::size_t b,
                    const Eigen::Vector3d& middle, const PairLimits& limits, double alpha) {
     CameraPair pair{.left = a, .right = b};
     const auto place_x = [&](std::size_t left, std::size_t right) {
@@ -101,7 +101,7 @@ CameraPair pair_of(const std::vector<ListedCamera>& cameras, std::size_t a, std:
             .x();
     };
     if (place_x(a, b) < 0) std::swap(pair.left, pair.right);
-    const ListedCamera &left = cameras[pair.left], &right = cameras[pair.right];
+    const SingleCamera &left = cameras[pair.left], &right = cameras[pair.right];
     StereoCalibration& c = pair.calibration;
     c.left = left.model;
     c.right = right.model;
@@ -132,7 +132,7 @@ CameraPair pair_of(const std::vector<ListedCamera>& cameras, std::size_t a, std:
     return pair;
 }
 
-CameraPairs form_pairs(const std::vector<ListedCamera>& cameras, const PairLimits& limits,
+CameraPairs form_pairs(const std::vector<SingleCamera>& cameras, const PairLimits& limits,
                        double alpha) {
     const Eigen::Vector3d middle = middle_of_stage(cameras);
     std::vector<CameraPair> possible, refused;

@@ -42,15 +42,15 @@ struct CameraPairs {
 
 /// The point that is nearest to the optical axes of all cameras: the middle of the stage. For
 /// parallel axes it is 3 m ahead of the first camera.
-Eigen::Vector3d middle_of_stage(const std::vector<ListedCamera>& cameras);
+Eigen::Vector3d middle_of_stage(const std::vector<SingleCamera>& cameras);
 
 /// The pair of two cameras, rectified, with its place on the stage. The one that stands further to
 /// the left is the left one.
-CameraPair pair_of(const std::vector<ListedCamera>& cameras, std::size_t a, std::size_t b,
+CameraPair pair_of(const std::vector<SingleCamera>& cameras, std::size_t a, std::size_t b,
                    const Eigen::Vector3d& middle, const PairLimits& limits, double alpha);
 
 /// Forms rigs of the cameras: of all pairs within the limits those with the largest overlap first.
-CameraPairs form_pairs(const std::vector<ListedCamera>& cameras, const PairLimits& limits,
+CameraPairs form_pairs(const std::vector<SingleCamera>& cameras, const PairLimits& limits,
                        double alpha);
 
 }  // namespace vantage

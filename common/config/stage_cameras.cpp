@@ -37,10 +37,10 @@ Pose pose_of(const TomlTable& table, const PoseNumbers& m) {
 }
 
 void read_camera(TomlTable& table, const std::filesystem::path& folder,
-                 std::vector<ListedCamera>& cameras) {
-    ListedCamera camera;
+                 std::vector<SingleCamera>& cameras) {
+    SingleCamera camera;
     read_stream_name(table, camera.name);
-    for (const ListedCamera& other : cameras)
+    for (const SingleCamera& other : cameras)
         if (other.name == camera.name)
             table.refuse("name", fmt::format("is '{}' a second time: every camera needs its own",
                                              camera.name));
@@ -66,8 +66,8 @@ void read_camera(TomlTable& table, const std::filesystem::path& folder,
 
 }  // namespace
 
-std::vector<ListedCamera> load_stage_cameras(const std::filesystem::path& stage) {
-    std::vector<ListedCamera> cameras;
+std::vector<SingleCamera> load_stage_cameras(const std::filesystem::path& stage) {
+    std::vector<SingleCamera> cameras;
     read_toml_file(stage, stage_file_version, [&](TomlTable& top) {
         top.leave_others();
         top.read_tables("cameras",
@@ -81,7 +81,7 @@ std::vector<ListedCamera> load_stage_cameras(const std::filesystem::path& stage)
     return cameras;
 }
 
-std::string stage_camera_text(const ListedCamera& camera, const std::string& calibration_file) {
+std::string stage_camera_text(const SingleCamera& camera, const std::string& calibration_file) {
     const Eigen::Matrix4d m = camera.world_from_camera.matrix();
     std::vector<std::string> rows;
     for (int row = 0; row < 3; ++row)

@@ -11,7 +11,7 @@ namespace vantage {
 
 /// A calibrated single camera of a stage: an entry [[cameras]] of stage.toml. It is no rig, and
 /// `vantage live` receives none; pairs of such cameras become rigs.
-struct ListedCamera {
+struct SingleCamera {
     std::string name;
     CameraModel model;
     Pose world_from_camera = Pose::Identity();
@@ -23,9 +23,9 @@ struct ListedCamera {
 
 /// Loads the entries [[cameras]] of a stage file, which may hold rigs too. Throws Error with file
 /// and line for an invalid entry, and if there is none.
-std::vector<ListedCamera> load_stage_cameras(const std::filesystem::path& stage);
+std::vector<SingleCamera> load_stage_cameras(const std::filesystem::path& stage);
 
 /// The text of an entry with this calibration file, both relative to the stage file's folder.
-std::string stage_camera_text(const ListedCamera& camera, const std::string& calibration_file);
+std::string stage_camera_text(const SingleCamera& camera, const std::string& calibration_file);
 
 }  // namespace vantage

@@ -8,7 +8,9 @@
 
 #include "common/base/cli/command.h"
 #include "common/base/cli/print_result.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/gl/context/egl_context.h"
 #include "common/gl/context/limits.h"
 #include "common/gl/objects/gpu_timer.h"
@@ -18,6 +20,8 @@
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/immersive_metrics.h"
+#include "host_app/view_sets/outline_depth.h"
+#include "host_app/view_sets/stage_views.h"
 #include "host_app/view_sets/view_set.h"
 
 namespace vantage {
@@ -36,9 +40,10 @@ struct RenderOptions {
 /// Renders a view set for one camera or for the eyes of a 3-D display, plain or as a source map.
 class Rendering {
   public:
-    Rendering(const RenderOptions& options, const std::vector<ViewSet>& earlier, const ViewSet& set,
-              const VirtualView& target, const ShaderLibrary& shaders)
-        : synthesiser_(make_synthesiser(options.synthesiser, shaders)),
+    Rendering(const RenderOptions& options, const std::string& synthesiser,
+              const std::vector<ViewSet>& earlier, const ViewSet& set, const VirtualView& target,
+              const ShaderLibrary& shaders)
+        : synthesiser_(make_synthesiser(synthesiser, shaders)),
           overlay_(shaders),
           mosaic_(shaders) {
         eyes_ = {target};
@@ -103,10 +108,50 @@ class Rendering {
     EyeMosaic mosaic_;
 };
 
+/// The folder of a view set, or a stage file with single cameras.
+ViewSet load_views(const std::string& path) {
+    return std::filesystem::path(path).extension() == ".toml" ? load_stage_views(path)
+                                                              : load_view_set(path);
+}
+
+bool has_depth(const ViewSet& set) {
+    return std::any_of(set.views.begin(), set.views.end(),
+                       [](const DepthView& view) { return !view.depth_m.empty(); });
+}
+
+/// Gives views without any depth that of the hull of their outlines. Returns whether it did.
+bool fall_back_to_outlines(const RenderOptions& options, ViewSet& set) {
+    if (!find_synthesiser(options.synthesiser).needs_depth || has_depth(set)) return false;
+    const auto outlines = std::count_if(set.outlines.begin(), set.outlines.end(),
+                                        [](const GreyImage& outline) { return !outline.empty(); });
+    if (outlines < 2)
+        fail(
+            "{}: none of the {} has 'disparity' or 'depth'. Add geometry to at least one view, or "
+            "'outline' pictures, white where the performers are, to at least two, of which a hull "
+            "is made ({} now). Views of a row of cameras can also be resampled without geometry: "
+            "--synth lightfield",
+            options.views, counted(set.views.size(), "remaining view"),
+            outlines == 0 ? "none has one" : "one has one");
+    set_depth_from_outlines(set.views, set.outlines);
+    log_info("no view has depth: the hull of {} outlines is rendered", outlines);
+    return true;
+}
+
+/// Removes views that look against the target's direction: it sees no surface that they see, and
+/// the synthesisers draw nothing at all where the views of one picture face each other.
+void remove_facing_views(std::vector<DepthView>& views, const VirtualView& target) {
+    constexpr double least_cosine = -0.17;  // 100 degrees
+    const Eigen::Vector3d axis = target.world_from_camera.linear().col(2);
+    const auto is_facing = [&](const DepthView& view) {
+        return view.world_from_camera.linear().col(2).dot(axis) < least_cosine;
+    };
+    if (!std::all_of(views.begin(), views.end(), is_facing)) std::erase_if(views, is_facing);
+}
+
 void render(const RenderOptions& options) {
-    ViewSet set = load_view_set(options.views);
+    ViewSet set = load_views(options.views);
     std::vector<ViewSet> earlier;
-    for (const std::string& folder : options.earlier) earlier.push_back(load_view_set(folder));
+    for (const std::string& folder : options.earlier) earlier.push_back(load_views(folder));
     VirtualView target;
     ColourImage truth;
     if (!options.hold_out.empty()) {
@@ -115,6 +160,7 @@ void render(const RenderOptions& options) {
             set.views.begin() + static_cast<std::ptrdiff_t>(set.index_of(options.hold_out));
         truth = held_out->colour;
         target = {truth.cols, truth.rows, held_out->K, held_out->world_from_camera};
+        set.outlines.erase(set.outlines.begin() + (held_out - set.views.begin()));
         set.views.erase(held_out);
         for (ViewSet& instant : earlier)
             std::erase_if(instant.views,
@@ -122,24 +168,23 @@ void render(const RenderOptions& options) {
     } else {
         target = load_virtual_view(options.pose);
     }
-    if (find_synthesiser(options.synthesiser).needs_depth &&
-        std::none_of(set.views.begin(), set.views.end(),
-                     [](const DepthView& view) { return !view.depth_m.empty(); }))
-        fail(
-            "{}: none of the remaining views has 'disparity' or 'depth'; add geometry to at least "
-            "one view",
-            options.views);
+    const bool is_hull = fall_back_to_outlines(options, set);
+    if (is_hull) remove_facing_views(set.views, target);
+    // The hull's surface is drawn like any other that has depth.
+    const std::string synthesiser =
+        is_hull && options.synthesiser == "hull" ? default_synthesiser : options.synthesiser;
 
     const EglContext context;
     const GlInfo gl = GlInfo::query();
     gl.require_vantage_minimum();
     const ShaderLibrary shaders;
-    Rendering rendering(options, earlier, set, target, shaders);
+    Rendering rendering(options, synthesiser, earlier, set, target, shaders);
     const ColourImage picture = rendering.plain().download();
     const double gpu_ms = median_gpu_ms(timed_renderings, [&] { rendering.plain(); });
 
-    nlohmann::ordered_json result{
-        {"width", target.width_px}, {"height", target.height_px}, {"synth", options.synthesiser}};
+    nlohmann::ordered_json result{{"width", target.width_px},
+                                  {"height", target.height_px},
+                                  {"synth", is_hull ? "hull" : options.synthesiser}};
     if (!truth.empty()) {
         result["hold_out"] = options.hold_out;
         result["psnr_db"] = psnr_db(picture, truth);
@@ -181,7 +226,10 @@ CommandEntry render_command_entry() {
             "   \"world_from_camera\": [[r, r, r, x], [r, r, r, y], [r, r, r, z]]}\n"
             "Pixel centres are at integer coordinates; x right, y down, z forward; metres.\n" +
             synthesisers_help());
-        command->add_option("--views", options->views, "Read the view set in this folder")
+        command
+            ->add_option("--views", options->views,
+                         "Read the view set in this folder, or the single cameras of this "
+                         "stage file (.toml)")
             ->required();
         command->add_option("--earlier", options->earlier,
                             "Read earlier view sets of the same rigs from these folders, oldest "

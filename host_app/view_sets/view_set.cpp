@@ -189,8 +189,8 @@ DepthView read_view(const Entry& entry, const std::filesystem::path& folder) {
     view.name = entry.text("name");
     view.K = entry.intrinsics();
     view.world_from_camera = entry.pose();
-    entry.warn_of_unknown_keys({"name", "image", "disparity", "depth", "scale", "unknown", "K",
-                                "world_from_camera", "baseline_m", "doffs_px"});
+    entry.warn_of_unknown_keys({"name", "image", "outline", "disparity", "depth", "scale",
+                                "unknown", "K", "world_from_camera", "baseline_m", "doffs_px"});
     if (entry.has("disparity") && entry.has("depth"))
         fail("{}: both 'disparity' and 'depth' are given; keep one", entry.where);
     view.doffs_px = entry.number("doffs_px", 0);
@@ -247,8 +247,20 @@ ViewSet load_view_set(const std::filesystem::path& folder) {
         if (!names.insert(entry.text("name")).second)
             fail("{}: another view has this name; give each its own", entry.where);
         set.views.push_back(read_view(entry, folder));
+        set.outlines.push_back(entry.has("outline") ? read_outline(folder / entry.text("outline"),
+                                                                   set.views.back().name,
+                                                                   set.views.back().colour.size())
+                                                    : GreyImage());
     }
     return set;
+}
+
+GreyImage read_outline(const std::filesystem::path& file, const std::string& view, cv::Size size) {
+    const GreyImage outline = to_grey(read_colour_image(file));
+    if (outline.size() != size)
+        fail("{} is {}x{}, and the picture of the view '{}' is {}x{}: give an outline of its size",
+             file.string(), outline.cols, outline.rows, view, size.width, size.height);
+    return outline;
 }
 
 VirtualView load_virtual_view(const std::filesystem::path& file) {

@@ -3,21 +3,28 @@
 
   tests/interop/interop.py [--bin FOLDER] [-o FILE]
 
-Every file is made here, by the real writer. A writer that is not installed gives rows that say SKIPPED. The packages
-of all writers are imagemagick, python3-pil, python3-opencv, netpbm, ffmpeg and libimage-exiftool-perl.
+Every file and message is made here, by the real writer. A writer that is not installed gives rows that say SKIPPED.
+The packages of all writers are imagemagick, python3-pil, python3-opencv, netpbm, ffmpeg, libimage-exiftool-perl,
+liblo-tools and libltc11 or libltc-dev.
 
 A picture is right if the disparities of its pair are those of the original pair, or those of the original pair with
-the colours that the form can hold. A calibration is right if its numbers are those that were written. The exit status
-is 1 if a row is wrong.
+the colours that the form can hold. A calibration is right if its numbers are those that were written. A video is right
+if the pictures that a rig shows are the frames of its pulses. OSC is right if all commands are executed, and time code
+if the codes that were written are heard. The exit status is 1 if a row is wrong.
 """
 
 import argparse
+import ctypes
+import ctypes.util
 import json
 import pathlib
 import re
 import shutil
+import socket
 import subprocess
 import tempfile
+import time
+import wave
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SIZE, DISPARITIES, SHIFT = (160, 120), 16, 6
@@ -239,6 +246,196 @@ class Calibrations:
         self.opencv("stereo calibration, JSON", "json")
 
 
+class Videos:
+    """Videos, played by a rig: every pulse shows the frame of its number, modulo the length."""
+
+    FRAMES, STEP = 10, 20
+
+    def __init__(self, programs, folder, table):
+        self.rig, self.folder, self.table = programs / "vantage-rig", folder / "videos", table
+        self.folder.mkdir()
+
+    def row(self, form, name, options):
+        reader = "`vantage-rig capture`"
+        film = self.folder / name
+        source = f"color=black:size=64x48:rate=25,format=gray,geq=lum='20+N*{self.STEP}'"
+        code, _, error = run("ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", source, "-frames:v", self.FRAMES,
+                             *options, film)
+        if code:
+            self.table.add("FFmpeg", form, reader, "SKIPPED", f"the writer refuses: {said(error)}")
+            return
+        config, taken = self.folder / f"{name}.toml", self.folder / f"{name}.pictures"
+        config.write_text(f'version = 1\nname = "a"\ncalibration = "none"\n[source]\nkind = "files"\n'
+                          f'left = "{name}"\nright = "{name}"\nrate_hz = 10\n[stream]\nbind = "tcp://127.0.0.1:*"\n')
+        code, _, error = run(self.rig, "capture", "--config", config, "--every", 3, "--count", 8, "-o", taken)
+        if code:
+            self.table.add("FFmpeg", form, reader, "wrong", said(error))
+            return
+        misses = []
+        for side in ("left", "right"):
+            for picture in sorted(taken.glob(f"{side}_*.png")):
+                raw = subprocess.run(["ffmpeg", "-v", "error", "-i", picture, "-f", "rawvideo", "-pix_fmt", "gray", "-"],
+                                     capture_output=True).stdout
+                frame = int(re.search(r"(\d+)\.png", picture.name).group(1)) % self.FRAMES
+                misses.append(abs(sum(raw) / len(raw) - (20 + frame * self.STEP)))
+        worst = max(misses, default=255)
+        self.table.add("FFmpeg", form, reader, "right" if worst < self.STEP / 2 else "wrong",
+                       f"{len(misses)} pictures are the frames of their pulses (grey within {worst:.0f})"
+                       if worst < self.STEP / 2 else f"a picture is {worst:.0f} grey levels from its frame")
+
+    def all(self):
+        grey = ["-pix_fmt", "yuvj420p"]
+        for form, name, options in [
+                ("Motion JPEG in AVI", "mjpeg.avi", ["-c:v", "mjpeg", "-q:v", "2", *grey]),
+                ("H.264 in MP4", "h264.mp4", ["-c:v", "libx264", "-crf", "10", *grey]),
+                ("H.264 with B frames in Matroska", "bframes.mkv", ["-c:v", "libx264", "-bf", "3", "-crf", "10", *grey]),
+                ("HEVC in MP4", "hevc.mp4", ["-c:v", "libx265", "-crf", "10", "-x265-params", "log-level=none", *grey]),
+                ("FFV1 in Matroska", "ffv1.mkv", ["-c:v", "ffv1", "-pix_fmt", "gray"]),
+                ("VP9 in WebM", "vp9.webm", ["-c:v", "libvpx-vp9", "-crf", "10", "-color_range", "pc", *grey[:1], "yuv420p"]),
+                ("MPEG-4 in MOV", "mpeg4.mov", ["-c:v", "mpeg4", "-q:v", "2"]),
+                ("MPEG-2 in a transport stream", "mpeg2.ts", ["-c:v", "mpeg2video", "-q:v", "2", "-g", "5"]),
+                ("raw YUV in Y4M", "raw.y4m", ["-pix_fmt", "yuv420p"]),
+                ("ProRes in MOV", "prores.mov", ["-c:v", "prores_ks", "-pix_fmt", "yuv422p10le"])]:
+            self.row(form, name, options)
+
+
+class TimecodeWriter:
+    """The encoder of libltc."""
+
+    class Timecode(ctypes.Structure):
+        _fields_ = [("timezone", ctypes.c_char * 6)] + [
+            (name, ctypes.c_ubyte) for name in ("years", "months", "days", "hours", "mins", "secs", "frame")]
+
+    def __init__(self):
+        name = ctypes.util.find_library("ltc")
+        self.library = ctypes.CDLL(name) if name else None
+        if self.library:
+            self.library.ltc_encoder_create.restype = ctypes.c_void_p
+            self.library.ltc_encoder_create.argtypes = [ctypes.c_double, ctypes.c_double, ctypes.c_int, ctypes.c_int]
+
+    def samples(self, rate, fps, frames):
+        encoder = ctypes.c_void_p(self.library.ltc_encoder_create(rate, fps, 1, 0))
+        start = self.Timecode(b"+0000", 0, 0, 0, 10, 0, 0, 0)
+        self.library.ltc_encoder_set_timecode(encoder, ctypes.byref(start))
+        buffer = (ctypes.c_ubyte * (2 * int(rate / fps) + 64))()
+        result = bytearray()
+        for _ in range(frames):
+            self.library.ltc_encoder_encode_frame(encoder)
+            result += bytes(buffer[:self.library.ltc_encoder_get_buffer(encoder, buffer)])
+            self.library.ltc_encoder_inc_timecode(encoder)
+        self.library.ltc_encoder_free(encoder)
+        return result
+
+    def write(self, file, rate, fps, frames, channels=1, channel=0):
+        with wave.open(str(file), "wb") as out:
+            out.setnchannels(channels)
+            out.setsampwidth(2)
+            out.setframerate(rate)
+            data = bytearray()
+            for sample in self.samples(rate, fps, frames):
+                for i in range(channels):
+                    data += int((sample - 128) * 200 if i == channel else 0).to_bytes(2, "little", signed=True)
+            out.writeframes(bytes(data))
+
+
+class Show:
+    """OSC and linear time code, heard by one show with a virtual rig."""
+
+    CODES = 60
+
+    def __init__(self, programs, folder, table):
+        self.host, self.rig, self.folder, self.table = programs / "vantage", programs / "vantage-rig", folder / "show", table
+        self.folder.mkdir()
+
+    @staticmethod
+    def free_port(kind):
+        with socket.socket(socket.AF_INET, kind) as one:
+            one.bind(("127.0.0.1", 0))
+            return one.getsockname()[1]
+
+    def timecodes(self):
+        writer = TimecodeWriter()
+        rows = []
+        for form, name, settings, convert in [
+                ("LTC, 48 kHz", "l48.wav", (48000, 25), None),
+                ("LTC, 44.1 kHz, second of two channels", "l44.wav", (44100, 25, self.CODES, 2, 1), None),
+                ("LTC, 96 kHz, 30 frames per second", "l96.wav", (96000, 30), None),
+                ("LTC, 22.05 kHz, 24 frames per second", "l22.wav", (22050, 24), None),
+                ("LTC in FLAC, encoded by FFmpeg", "l.flac", (48000, 25), ["-c:a", "flac"]),
+                ("LTC in AAC, encoded by FFmpeg", "l.m4a", (48000, 25), ["-c:a", "aac", "-b:a", "192k"])]:
+            if not writer.library:
+                self.table.add("libltc", form, "`--control ltc://`", "SKIPPED", "libltc is not installed")
+                continue
+            rate, fps, *more = settings
+            plain = self.folder / (name if not convert else f"{name}.wav")
+            writer.write(plain, rate, fps, *(more or [self.CODES]))
+            if convert and run("ffmpeg", "-v", "error", "-y", "-i", plain, *convert, self.folder / name)[0]:
+                self.table.add("libltc", form, "`--control ltc://`", "SKIPPED", "FFmpeg does not write it")
+                continue
+            rows.append((form, f"ltc://{self.folder / name}"))
+        return rows
+
+    OSC = [("/vantage/freeze", ""), ("/vantage/live", ""), ("/vantage/shot", "i", "1"), ("/vantage/preset", "f", "50")]
+
+    def send(self, port, host):
+        """Sends commands once the show renders, as single messages and in a bundle; returns their number."""
+        log = []
+        for line in host.stderr:
+            log.append(line)
+            if " fps, " in line:
+                break
+        sent = 0
+        if shutil.which("oscsend"):
+            for address, types, *values in self.OSC:
+                sent += run("oscsend", "127.0.0.1", port, address, *([types, *values] if types else []))[0] == 0
+        time.sleep(4)
+        return sent, "".join(log)
+
+    def judge(self, osc_url, sent, heard, ports):
+        reader = "`--control osc://`"
+        if not shutil.which("oscsend"):
+            self.table.add("liblo", "OSC commands", reader, "SKIPPED", "oscsend is not installed")
+        else:
+            port = ports.get(osc_url, {})
+            obeyed = port.get("obeyed", 0)
+            is_right = obeyed == sent == len(self.OSC)
+            self.table.add("liblo", "OSC commands without and with numbers", reader, "right" if is_right else "wrong",
+                           f"{obeyed} of {sent} executed" + (f": {port['last_refusal']}" if port.get("last_refusal") else ""))
+        for form, url in heard:
+            port = ports.get(url, {})
+            # The decoder needs one or two codes to find the first one, and holds back the last.
+            codes = port.get("obeyed", 0)
+            is_right = codes >= self.CODES - 4 and port.get("told", "").startswith("10:00:0")
+            self.table.add("libltc", form, "`--control ltc://`", "right" if is_right else "wrong",
+                           f"{codes} of {self.CODES} codes heard" if codes else port.get("told") or port.get("failure", ""))
+
+    def all(self):
+        port, osc = self.free_port(socket.SOCK_STREAM), self.free_port(socket.SOCK_DGRAM)
+        (self.folder / "rig.toml").write_text(
+            f'version = 1\nname = "a"\n[source]\nkind = "virtual"\nrate_hz = 10\nwidth_px = 64\nheight_px = 48\n'
+            f'[match]\nmatcher = "exact"\n[stream]\nbind = "tcp://127.0.0.1:{port}"\n')
+        (self.folder / "stage.toml").write_text(
+            f'version = 1\nrate_hz = 10\n[[rigs]]\nname = "a"\nendpoint = "tcp://127.0.0.1:{port}"\n'
+            '[view]\nwidth_px = 64\nheight_px = 48\n')
+        heard = self.timecodes()
+        osc_url = f"osc://127.0.0.1:{osc}"
+        with subprocess.Popen([self.rig, "run", "--config", self.folder / "rig.toml"], stdout=subprocess.DEVNULL,
+                              stderr=subprocess.DEVNULL) as rig:
+            host = subprocess.Popen(
+                [self.host, "live", "--stage", self.folder / "stage.toml", "--headless", "--json", "--wait", "60",
+                 "--seconds", "600", "--control", osc_url, *[word for _, url in heard for word in ("--control", url)]],
+                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            sent, log = self.send(osc, host)
+            host.terminate()
+            out, rest = host.communicate()
+            rig.terminate()
+        try:
+            ports = {entry["name"]: entry for entry in json.loads(out)["control"]}
+        except (ValueError, KeyError, TypeError):
+            raise SystemExit(f"interop: the show ended without a summary: {said(log + rest)}")
+        self.judge(osc_url, sent, heard, ports)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="folder of the programs")
@@ -250,6 +447,8 @@ def main():
         folder = pathlib.Path(name)
         Pictures(options.bin, folder, table).all()
         Calibrations(options.bin, folder, table).all()
+        Videos(options.bin, folder, table).all()
+        Show(options.bin, folder, table).all()
     options.o.write_text(table.markdown())
     if options.json:
         print(json.dumps({"wrong": table.wrong, "rows": len(table.rows)}))

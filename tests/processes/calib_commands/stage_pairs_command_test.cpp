@@ -95,7 +95,7 @@ TEST_F(StagePairsCommand, MakesRigsThatTheProgramsLoad) {
     const StageConfig stage = load_stage_config(at("rigs/stage.toml"));
     ASSERT_EQ(stage.rigs.size(), 1u);
     EXPECT_EQ(stage.rigs[0].endpoint, rig.stream.bind);
-    const std::vector<ListedCamera> left = load_stage_cameras(at("rigs/stage.toml"));
+    const std::vector<SingleCamera> left = load_stage_cameras(at("rigs/stage.toml"));
     ASSERT_EQ(left.size(), 1u);
     EXPECT_EQ(left[0].name, "c2");
     EXPECT_EQ(left[0].source, "/dev/video2");

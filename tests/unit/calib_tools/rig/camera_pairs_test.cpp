@@ -9,8 +9,8 @@ namespace {
 using testing::HasSubstr;
 
 /// A camera on a circle of 4 m around the origin, which it looks at, this far to the side.
-ListedCamera around(const std::string& name, double azimuth_deg, int width_px = 640) {
-    ListedCamera camera;
+SingleCamera around(const std::string& name, double azimuth_deg, int width_px = 640) {
+    SingleCamera camera;
     camera.name = name;
     camera.model.width_px = width_px;
     camera.model.height_px = width_px * 3 / 4;
@@ -24,7 +24,7 @@ ListedCamera around(const std::string& name, double azimuth_deg, int width_px = 
 }
 
 TEST(CameraPairs, FormsRigsOfNeighboursAndNamesTheRestWithNumbers) {
-    const std::vector<ListedCamera> cameras{around("a", 0), around("b", 8), around("c", 90),
+    const std::vector<SingleCamera> cameras{around("a", 0), around("b", 8), around("c", 90),
                                             around("d", 97), around("e", 180)};
     EXPECT_LT((middle_of_stage(cameras) - Eigen::Vector3d(0, 1, 0)).norm(), 1e-9);
     const CameraPairs formed = form_pairs(cameras, {}, 0);
@@ -48,8 +48,8 @@ TEST(CameraPairs, FormsRigsOfNeighboursAndNamesTheRestWithNumbers) {
 }
 
 TEST(CameraPairs, TellsWhichLimitIsBroken) {
-    const auto fault = [](const ListedCamera& a, const ListedCamera& b, PairLimits limits = {}) {
-        const std::vector<ListedCamera> cameras{a, b, around("far", 60)};
+    const auto fault = [](const SingleCamera& a, const SingleCamera& b, PairLimits limits = {}) {
+        const std::vector<SingleCamera> cameras{a, b, around("far", 60)};
         return pair_of(cameras, 0, 1, Eigen::Vector3d(0, 1, 0), limits, 0).fault;
     };
     EXPECT_EQ(fault(around("a", 0), around("b", 10)), "");
@@ -58,13 +58,13 @@ TEST(CameraPairs, TellsWhichLimitIsBroken) {
                 HasSubstr("0.70 m at 4.00 m"));
     EXPECT_THAT(fault(around("a", 0), around("b", 10, 320)), HasSubstr("640x480 and 320x240"));
     EXPECT_THAT(fault(around("a", 0), around("b", 0.1)), HasSubstr("below 0.02 m"));
-    ListedCamera above = around("b", 0);
+    SingleCamera above = around("b", 0);
     above.world_from_camera.translation().y() += 0.3;
     EXPECT_THAT(fault(around("a", 0), above), HasSubstr("above each other"));
-    ListedCamera behind = around("b", 2);
+    SingleCamera behind = around("b", 2);
     behind.world_from_camera.translation().z() += 0.5;
     EXPECT_THAT(fault(around("a", 0), behind), HasSubstr("behind each other"));
-    ListedCamera rolled = around("b", 10);
+    SingleCamera rolled = around("b", 10);
     rolled.world_from_camera.linear() =
         rolled.world_from_camera.linear() * Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ());
     EXPECT_THAT(fault(around("a", 0), rolled), HasSubstr("roll, above 20"));
@@ -73,7 +73,7 @@ TEST(CameraPairs, TellsWhichLimitIsBroken) {
 }
 
 TEST(CameraPairs, RectifiesLargePicturesSmallerSoThatDisparitiesReach) {
-    const std::vector<ListedCamera> cameras{around("a", 0, 3840), around("b", 8, 3840)};
+    const std::vector<SingleCamera> cameras{around("a", 0, 3840), around("b", 8, 3840)};
     const CameraPairs formed = form_pairs(cameras, {}, 0);
     ASSERT_EQ(formed.pairs.size(), 1u);
     EXPECT_LT(formed.pairs[0].calibration.rectified.width_px, 3840);
