@@ -56,8 +56,14 @@ WebDesk::WebDesk(Settings settings, OperatorInputBox& input)
       attempts_(attempts_per_second, attempts_at_once) {}
 
 void WebDesk::show(WebShown shown) {
-    const std::lock_guard lock(mutex_);
-    shown_ = std::move(shown);
+    // The old pictures are released after the lock.
+    const std::lock_guard lock(shown_mutex_);
+    std::swap(shown_, shown);
+}
+
+WebShown WebDesk::shown() const {
+    const std::lock_guard lock(shown_mutex_);
+    return shown_;
 }
 
 WebStats WebDesk::stats() const {
@@ -91,7 +97,7 @@ WebAnswer WebDesk::answer_to(const WebRequest& request, MonotonicTime now) {
         return refusal(401, "the PIN is needed");
     if (request.path == "/command" && !is_read) return obey(request, now);
     if (!is_read) return refusal(405, "only GET");
-    if (request.path == "/state") return {200, "application/json", shown_.state, {}};
+    if (request.path == "/state") return {200, "application/json", shown().state, {}};
     if (request.path == "/programme.jpg") return picture("", now);
     if (request.path == "/rig.jpg") {
         const auto rig = request.query.find("rig");
@@ -136,9 +142,10 @@ WebAnswer WebDesk::obey(const WebRequest& request, MonotonicTime now) {
 }
 
 ColourImage WebDesk::newest(const std::string& rig) const {
-    if (rig.empty()) return shown_.picture;
-    if (shown_.set)
-        for (const FrameSet::Slot& slot : shown_.set->slots)
+    const WebShown shown = this->shown();
+    if (rig.empty()) return shown.picture;
+    if (shown.set)
+        for (const FrameSet::Slot& slot : shown.set->slots)
             if (slot.rig == rig && slot.frame) return slot.frame->colour;
     return {};
 }

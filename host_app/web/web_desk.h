@@ -62,6 +62,7 @@ class WebDesk {
     /// `input` must outlive it.
     WebDesk(Settings settings, OperatorInputBox& input);
 
+    /// Never waits for an answer that is under way: the programme's thread may call it.
     void show(WebShown shown);
     WebAnswer answer(const WebRequest& request, MonotonicTime now);
     WebStats stats() const;
@@ -78,12 +79,14 @@ class WebDesk {
     WebAnswer obey(const WebRequest& request, MonotonicTime now);
     /// `rig`: empty for the programme.
     WebAnswer picture(const std::string& rig, MonotonicTime now);
+    WebShown shown() const;
     ColourImage newest(const std::string& rig) const;
 
     Settings settings_;
-    const std::string session_;  ///< value of the cookie of those who gave the PIN
-    mutable std::mutex mutex_;   ///< guards all below
+    const std::string session_;       ///< value of the cookie of those who gave the PIN
+    mutable std::mutex shown_mutex_;  ///< guards shown_ alone
     WebShown shown_;
+    mutable std::mutex mutex_;  ///< guards all below
     WebStats stats_;
     CommandIntake intake_;
     MessageBudget attempts_;
