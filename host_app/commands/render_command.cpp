@@ -137,17 +137,6 @@ bool fall_back_to_outlines(const RenderOptions& options, ViewSet& set) {
     return true;
 }
 
-/// Removes views that look against the target's direction: it sees no surface that they see, and
-/// the synthesisers draw nothing at all where the views of one picture face each other.
-void remove_facing_views(std::vector<DepthView>& views, const VirtualView& target) {
-    constexpr double least_cosine = -0.17;  // 100 degrees
-    const Eigen::Vector3d axis = target.world_from_camera.linear().col(2);
-    const auto is_facing = [&](const DepthView& view) {
-        return view.world_from_camera.linear().col(2).dot(axis) < least_cosine;
-    };
-    if (!std::all_of(views.begin(), views.end(), is_facing)) std::erase_if(views, is_facing);
-}
-
 void render(const RenderOptions& options) {
     ViewSet set = load_views(options.views);
     std::vector<ViewSet> earlier;
@@ -169,7 +158,6 @@ void render(const RenderOptions& options) {
         target = load_virtual_view(options.pose);
     }
     const bool is_hull = fall_back_to_outlines(options, set);
-    if (is_hull) remove_facing_views(set.views, target);
     // The hull's surface is drawn like any other that has depth.
     const std::string synthesiser =
         is_hull && options.synthesiser == "hull" ? default_synthesiser : options.synthesiser;

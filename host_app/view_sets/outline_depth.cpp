@@ -15,6 +15,10 @@ constexpr unsigned char least_inside = 128;
 /// Range of depth that is searched, relative to the distance of the middle of the views.
 constexpr double nearest_share = 0.2, farthest_share = 4;
 constexpr int coarse_steps = 400, fine_steps = 6;
+/// Other views, at most, that have to see a point within their outlines. One would not do: a view
+/// from the opposite side sees almost a whole line of sight within its outline, and near the camera
+/// the views from aside see nothing of it.
+constexpr std::ptrdiff_t least_others = 2;
 
 /// Another view's outline along the lines of sight of one view.
 struct OtherOutline {
@@ -23,14 +27,14 @@ struct OtherOutline {
     Eigen::Vector3d offset;
 
     /// Whether the point may be foreground: it is inside the outline, or outside the picture, about
-    /// which this view says nothing. `is_seen` becomes true in the first case.
-    bool may_hold(const Eigen::Vector3d& direction, double depth_m, bool& is_seen) const {
+    /// which this view says nothing. `seen` counts the views of the first case.
+    bool may_hold(const Eigen::Vector3d& direction, double depth_m, std::ptrdiff_t& seen) const {
         const Eigen::Vector3d p = depth_m * direction + offset;
         if (!(p.z() > 0)) return true;
         const double x = p.x() / p.z() + 0.5, y = p.y() / p.z() + 0.5;
         if (!(x >= 0 && y >= 0 && x < outline->cols && y < outline->rows)) return true;
         const bool is_inside = (*outline)(static_cast<int>(y), static_cast<int>(x)) >= least_inside;
-        is_seen = is_seen || is_inside;
+        if (is_inside) ++seen;
         return is_inside;
     }
 };
@@ -54,10 +58,10 @@ float nearest_hull_depth(const std::vector<OtherOutline>& others, const Eigen::V
     for (const OtherOutline& other : others)
         directions.push_back(other.rotation * pixel.homogeneous());
     const auto is_in_hull = [&](double depth_m) {
-        bool is_seen = false;
+        std::ptrdiff_t seen = 0;
         for (std::size_t i = 0; i < others.size(); ++i)
-            if (!others[i].may_hold(directions[i], depth_m, is_seen)) return false;
-        return is_seen;
+            if (!others[i].may_hold(directions[i], depth_m, seen)) return false;
+        return seen >= std::min(least_others, std::ssize(others));
     };
     // Equal steps of disparity: equal steps in the other pictures.
     double outside_m = nearest_m;

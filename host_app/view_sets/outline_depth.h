@@ -8,7 +8,8 @@
 namespace vantage {
 
 /// Computes the depth of each view's foreground from the outlines of all views: the nearest point
-/// of the visual hull (Matusik et al., 2000) along each pixel's line of sight. `outlines[i]` is
+/// of the visual hull (Matusik et al., 2000) along each pixel's line of sight that two other views
+/// see, or the only other one. `outlines[i]` is
 /// above 127 where the foreground is in views[i], in the size of its picture, or empty for a view
 /// without an outline, which gets no depth. Pixels outside the outline have no depth either. Throws
 /// Error unless at least two views have an outline.

@@ -51,6 +51,21 @@ TEST(OutlineDepth, CarvesABallFromItsOutlines) {
     }
 }
 
+TEST(OutlineDepth, IsNotDeceivedByAViewFromTheOppositeSide) {
+    std::vector<DepthView> views;
+    std::vector<GreyImage> outlines;
+    for (int i = 0; i < 4; ++i) {
+        const BallView ball(90.0 * i);
+        views.push_back(ball.view);
+        outlines.push_back(ball.outline);
+    }
+    set_depth_from_outlines(views, outlines);
+    for (const DepthView& view : views) {
+        EXPECT_LT(view.depth_m(60, 80), 3 - radius_m + 0.01);
+        EXPECT_GT(view.depth_m(60, 80), 3 - radius_m - 0.25);
+    }
+}
+
 TEST(OutlineDepth, LeavesViewsWithoutAnOutlineAlone) {
     const BallView a(0), b(90), c(45);
     std::vector<DepthView> views{a.view, b.view, c.view};
