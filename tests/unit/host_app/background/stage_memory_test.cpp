@@ -174,8 +174,9 @@ TEST_F(StageMemoryTest, APerformerWhoStandsStillForHalfAMinuteIsNotLearnt) {
     const cv::Mat1b known_behind = performers & was_known;
     ASSERT_GT(cv::countNonZero(known_behind), 200);
     const double own = share_alike(matched_m(view), rig_.seen().depth_m, known_behind);
-    EXPECT_GT(share_alike(depth_m(), rig_.seen().depth_m, known_behind), 0.9)
-        << "the matcher: " << own;
+    // As much of the performer as the matcher itself has right.
+    ASSERT_GT(own, 0.7);
+    EXPECT_GT(share_alike(depth_m(), rig_.seen().depth_m, known_behind), 0.95 * own);
     EXPECT_GT(share_of(plate().known, known_behind), 0.98);
     EXPECT_GT(share_alike(plate().depth_m, set_m, known_behind), 0.98);
 }
