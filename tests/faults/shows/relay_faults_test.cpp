@@ -58,7 +58,7 @@ TEST_F(RelayFaults, ARelayThatDiesCostsTheTicksAndTheOtherRigNothing) {
     EXPECT_EQ(relay_->wait().status, 128 + SIGKILL);
     wait_for(*host_, "rig far is gone");
     // The rig takes note of that and films on.
-    wait_for(*far_, " is gone");
+    wait_for(*far_, " disconnected");
     wait_for_progress();
     EXPECT_LE(sets_until_far_is_back([&] { start_relay(); }), sets_to_recover) << host_->err();
     wait_for_progress();
