@@ -211,16 +211,21 @@ BackgroundModel::Look BackgroundModel::look_at(const RigHistory& rig) {
                            std::max(1, cvRound(picture.height / reduction)));
     sampled_.resize(sampled);
     Program& known = known_.use();
-    known.input("background_state", rig.background_state().state());
+    const Texture& state = rig.background_state().state();
+    known.input("background_state", state);
+    known.input("depth_then", rig.model() ? rig.model()->learnt_m->texture() : state);
+    known.input("colour_then", rig.model() ? rig.model()->colour->texture() : rig.colour_mean());
+    known.set("spread", depth_spread(rig.camera()));
     known.input("background_colour", rig.colour_mean());
     known.set("known_after", known_after(rig));
     known.input("matte", rig.matte());
     known.set("sample_share", Eigen::Vector2f(1.0f / static_cast<float>(sampled.width),
                                               1.0f / static_cast<float>(sampled.height)));
     known_.draw(sampled_.target());
-    std::array<cv::Mat1b, 2> seen;
+    std::array<cv::Mat1b, 4> seen;
     cv::split(sampled_.texture().download(), seen.data());
-    return {cv::countNonZero(seen[0]) / static_cast<double>(sampled.area()), seen[1]};
+    const double samples = sampled.area();
+    return {cv::countNonZero(seen[0]) / samples, cv::countNonZero(seen[2]) / samples, seen[1]};
 }
 
 }  // namespace vantage

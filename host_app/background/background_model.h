@@ -39,8 +39,9 @@ class BackgroundModel {
     /// for learnt().
     static BackgroundView picture(const RigHistory& rig);
     struct Look {
-        double known_share = 0;  ///< of the rig's pixels, those whose background is known
-        cv::Mat1b matte;         ///< reduced, 0..255
+        double known_share = 0;    ///< of the rig's pixels, those whose background is known
+        double changed_share = 0;  ///< those whose background has changed since its model was made
+        cv::Mat1b matte;           ///< reduced, 0..255
     };
     /// Reads back a summary for operators. Precondition as for learnt().
     Look look_at(const RigHistory& rig);
@@ -60,7 +61,7 @@ class BackgroundModel {
     FullscreenPass tiles_;
     TilePass matte_, edges_;
     FullscreenPass learn_, colour_, known_;
-    DrawnTexture sampled_{TextureFormat::rg8};
+    DrawnTexture sampled_{TextureFormat::rgba8};
     DrawnTexture hard_{TextureFormat::r8, Filter::linear};
 };
 

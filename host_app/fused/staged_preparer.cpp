@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
+#include "host_app/baked/baked_painter.h"
+#include "host_app/fused/fused_renderer.h"
 #include "host_app/views/depth_view.h"
 #include "host_app/views/view_ranking.h"
 
@@ -20,6 +22,14 @@ constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
 /// Time from the first learning to background stereo, and between two runs of it: the first time,
 /// and doubled each time up to the longest, since results for a still background hardly change.
 constexpr double learnt_before_match_s = 2.5, first_match_rest_s = 5, longest_match_rest_s = 80;
+/// Least time before a probe of the baked background is made anew.
+constexpr double probe_rest_s = 8;
+/// Instants that a background must be learnt from before it is baked: earlier it may still hold
+/// performers.
+constexpr int baked_from = 8;
+/// Share of a rig's picture whose background has changed, from which on its model is made anew at
+/// once; until then the background is not drawn from its probes, which lack the change.
+constexpr double changed_share_to_model = 0.01;
 /// Time for which the cheapest levels keep a known background's shape; colours are always new.
 constexpr double shape_kept_s = 1;
 /// Instants that must be learnt before hidden parts of the background are remembered.
@@ -39,7 +49,10 @@ StagedPreparer::StagedPreparer(const ShaderLibrary& library)
       show_(library, "background_show.frag"),
       now_(library, "colours_now.frag"),
       show_matched_(library, "background_matched.frag"),
-      colour_performers_(library, "foreground_colour.frag") {
+      colour_performers_(library, "foreground_colour.frag"),
+      learnt_colours_(library, "learnt_colours.frag"),
+      copy_(library, "copy.frag"),
+      probe_renderer_(make_fused_renderer(library)) {
     match_anew(learnt_before_match_s);
 }
 
@@ -69,6 +82,11 @@ void StagedPreparer::warm_up(std::span<const DepthView> views, const VirtualView
     improve(target);
     level_ = prepare_levels().front();
     rigs_.forget();
+    probes_.clear();
+    probe_cameras_.clear();
+    modelled_.clear();
+    rendered_ = nullptr;
+    baked_.reset();
     improved_s_ = now_s_;
     match_anew(now_s_ + learnt_before_match_s);
 }
@@ -128,10 +146,15 @@ void StagedPreparer::begin_with_learnt(RigHistory& rig) {
 void StagedPreparer::look_at_sets() {
     looked_s_ = now_s_;
     states_.clear();
-    for (const RigHistory* rig : uploaded_) {
+    is_background_still_ = true;
+    for (RigHistory* rig : uploaded_) {
         const auto misfit = misfits_.find(rig->camera().name);
         const BackgroundModel::Look look =
             rig->learnt_instants() > 0 ? sets_.look_at(*rig) : BackgroundModel::Look();
+        if (look.changed_share > changed_share_to_model) {
+            is_background_still_ = false;
+            make_model_due(*rig);
+        }
         states_.push_back({.rig = rig->camera().name,
                            .known = look.known_share,
                            .is_loaded = misfit != misfits_.end() && misfit->second.empty(),
@@ -219,18 +242,30 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
         if (!rigs_.has_learnt(rig) || rig->depth().size() != matched->depth_sizes[i]) continue;
         if (cv::countNonZero(depths_m[i]) == 0) continue;  // no other rig stands far enough from it
         rig->set_background_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
-        if (!rig->model()) continue;
-        // The model is due as soon as there is time.
-        RigHistory::Model model = *rig->model();
-        model.rest_s = 0;
-        rig->set_background_model(model);
+        make_model_due(*rig);
     }
+}
+
+void StagedPreparer::make_model_due(RigHistory& rig) {
+    if (!rig.model() || rig.model()->rest_s == 0) return;
+    RigHistory::Model model = *rig.model();
+    model.rest_s = 0;
+    rig.set_background_model(model);
 }
 
 void StagedPreparer::match_anew(double due_s) {
     matched_.reset();
     match_due_s_ = due_s;
     match_rest_s_ = first_match_rest_s;
+}
+
+std::shared_ptr<const DrawnTexture> StagedPreparer::copy_of(const Texture& texture,
+                                                            TextureFormat format) {
+    auto copy = std::make_shared<DrawnTexture>(format);
+    copy->resize(texture.size());
+    copy_.use().input("source", texture);
+    copy_.draw(copy->target());
+    return copy;
 }
 
 std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory& rig,
@@ -245,7 +280,9 @@ std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory&
                            .rank = level.rank,
                            .rest_s = first_model_rest_s,
                            .made_s = now_s_,
-                           .made = rig.learnt_instants()};
+                           .made = rig.learnt_instants(),
+                           .learnt_m = copy_of(*depth_m, TextureFormat::r32f),
+                           .colour = copy_of(rig.colour(), TextureFormat::rgba8)};
     if (before && before->rank == 0)
         made.rest_s = std::clamp(2 * before->rest_s, first_model_rest_s, longest_model_rest_s);
     steps.push_back([=, this, &rig, &colour = rig.colour()]() mutable {
@@ -362,7 +399,112 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
         if (!rig->prepared_rank() || *rig->prepared_rank() > level.rank) publish(*rig, level);
         instant->rigs.push_back({rig->surface(), rig->performers(), rig->presence()});
     }
+    if (is_background_still_ && are_probes_made(target)) instant->extra = baked_;
     return instant;
+}
+
+std::shared_ptr<const RigSurface> StagedPreparer::model_surface(RigHistory& rig) {
+    ModelSurface& kept = modelled_[rig.camera().name];
+    if (kept.model == rig.model()->surface) return kept.surface;
+    const std::shared_ptr<RigSurface> surface = surfaces_.take(shapes_);
+    surface->begin_like(*rig.model()->surface, rig.samples());
+    edge_confidence_.judge(*surface);
+    triangles_.build(surface->grid(QuadGrid::coarse));
+    triangles_.build(surface->grid(QuadGrid::fine));
+    triangles_.build_rims(*surface);
+    surface->set_has_fine_grid(true);
+    Program& program = learnt_colours_.use();
+    program.input("background_colour", rig.colour());
+    program.input("confidence", surface->confidence().texture());
+    learnt_colours_.draw(surface->colour_target());
+    surface->finish_colour();
+    kept = {rig.model()->surface, surface};
+    return surface;
+}
+
+void StagedPreparer::place_probes(std::span<RigHistory* const> rigs) {
+    std::vector<DepthView> cameras;
+    std::vector<const DepthView*> pointers;
+    for (const RigHistory* rig : rigs) {
+        cameras.push_back(rig->camera());
+        cameras.back().colour = ColourImage(rig->fresh_colour().size());
+    }
+    const auto same = [](const DepthView& a, const DepthView& b) {
+        return a.name == b.name && a.K == b.K && a.colour.size() == b.colour.size() &&
+               a.world_from_camera.matrix() == b.world_from_camera.matrix();
+    };
+    if (std::equal(cameras.begin(), cameras.end(), probe_cameras_.begin(), probe_cameras_.end(),
+                   same))
+        return;
+    for (const DepthView& camera : cameras) pointers.push_back(&camera);
+    probes_.clear();
+    modelled_.clear();
+    rendered_ = nullptr;
+    for (const VirtualView& view : probe_views(pointers)) probes_.push_back({view, nullptr});
+    parallax_px_m_ = largest_parallax_px_m(probe_views(pointers));
+    probe_cameras_ = std::move(cameras);
+}
+
+std::vector<StagedPreparer::Probe*> StagedPreparer::nearest_first(const VirtualView& target) {
+    std::vector<Probe*> nearest;
+    for (Probe& probe : probes_) nearest.push_back(&probe);
+    const auto away_m = [&](const Probe* probe) {
+        return (probe->view.world_from_camera.translation() -
+                target.world_from_camera.translation())
+            .norm();
+    };
+    std::sort(nearest.begin(), nearest.end(),
+              [&](const Probe* a, const Probe* b) { return away_m(a) < away_m(b); });
+    return nearest;
+}
+
+bool StagedPreparer::are_probes_made(const VirtualView& target) {
+    const std::vector<Probe*> nearest = nearest_first(target);
+    const std::size_t needed = std::min(nearest.size(), BakedPainter::most_probes);
+    return needed > 0 && std::all_of(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(needed),
+                                     [](const Probe* probe) { return probe->made != nullptr; });
+}
+
+bool StagedPreparer::bake_a_step(const VirtualView& target) {
+    std::vector<RigHistory*> rigs;
+    double changed_s = -1;
+    for (RigHistory* rig : rigs_.shown()) {
+        if (!rig->model() || rig->model()->made < baked_from) return false;
+        changed_s = std::max(changed_s, rig->model()->made_s);
+        rigs.push_back(rig);
+    }
+    if (rigs.empty()) return false;
+    // Views come in any order.
+    std::sort(rigs.begin(), rigs.end(), [](const RigHistory* a, const RigHistory* b) {
+        return a->camera().name < b->camera().name;
+    });
+    place_probes(rigs);
+    if (Probe* probe = std::exchange(rendered_, nullptr)) {
+        const cv::Mat depth_m = cv::abs(probe_renderer_->depth_m()->download());
+        probe->made = std::make_shared<const BackgroundProbe>(
+            probe->view, ColourImage(probe_picture_->download()), DepthImage(depth_m),
+            parallax_px_m_);
+        auto background = std::make_shared<BakedBackground>();
+        for (const Probe& one : probes_)
+            if (one.made) background->probes.push_back(one.made);
+        auto extra = std::make_shared<BakedExtra>();
+        extra->background = std::move(background);
+        baked_ = std::move(extra);
+    }
+    Probe* next = nullptr;
+    for (Probe* probe : nearest_first(target)) {
+        const bool is_due = probe->made_s < 0 || (probe->made_s < changed_s &&
+                                                  now_s_ - probe->made_s > probe_rest_s);
+        if (!next && is_due) next = probe;
+    }
+    if (!next) return false;
+    Instant background;
+    for (RigHistory* rig : rigs) background.rigs.push_back({model_surface(*rig)});
+    probe_picture_ = &probe_renderer_->render(background, next->view, render_levels().front());
+    glFlush();
+    next->made_s = now_s_;
+    rendered_ = next;
+    return true;
 }
 
 void StagedPreparer::improve(const VirtualView& target) {
@@ -374,6 +516,7 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
                                     BackgroundStereoTask::Manner manner) {
     if (match_a_step(manner)) return true;
     if (refinement_pass_ && !is_under_way(*refinement_pass_)) refinement_pass_.reset();
+    if (!refinement_pass_ && bake_a_step(target)) return true;
     if (!refinement_pass_) begin_refining(target);
     if (!refinement_pass_) return false;
     const MultiViewRefinement::Step step = std::move(refinement_pass_->steps.front());
@@ -387,16 +530,18 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
 }
 
 void StagedPreparer::begin_refining(const VirtualView& target) {
-    if (now_s_ - improved_s_ < improvement_period_s) return;
-    // The rig in view whose model has been due for longest.
+    // The rig whose model has been due for longest; one without a model is due at once.
     const auto due_s = [](const RigHistory& rig) {
+        if (!rig.model()) return -1.0;
         return rig.model()->made_s + (rig.model()->rank == 0 ? rig.model()->rest_s : 0);
     };
     RigHistory* oldest = nullptr;
-    for (RigHistory* rig : most_useful(rigs_.shown(), target, most_drawn_rigs))
-        if (rig->model() && due_s(*rig) <= now_s_ && (!oldest || due_s(*rig) < due_s(*oldest)))
-            oldest = rig;
-    if (!oldest) return;
+    const auto look_at = [&](RigHistory* rig) {
+        if (due_s(*rig) <= now_s_ && (!oldest || due_s(*rig) < due_s(*oldest))) oldest = rig;
+    };
+    for (RigHistory* rig : most_useful(rigs_.shown(), target, most_drawn_rigs)) look_at(rig);
+    for (RigHistory* rig : rigs_.shown()) look_at(rig);
+    if (!oldest || (oldest->model() && now_s_ - improved_s_ < improvement_period_s)) return;
     learn(uploaded_);
     refinement_pass_.emplace();
     for (RigHistory* rig : rigs_.shown())

@@ -10,6 +10,7 @@
 
 #include "host_app/background/background_model.h"
 #include "host_app/background/background_stereo_task.h"
+#include "host_app/baked/baked_background.h"
 #include "host_app/foreground/foreground_depth.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/refine/depth_inpainting.h"
@@ -18,6 +19,7 @@
 #include "host_app/surfaces/recycle_pool.h"
 #include "host_app/surfaces/rig_roster.h"
 #include "host_app/surfaces/triangle_builder.h"
+#include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {
 
@@ -65,6 +67,7 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     void begin_refining(const VirtualView& target);
     /// Whether all rigs that it needs are unchanged.
     bool is_under_way(const Refining& refining) const;
+    std::shared_ptr<const DrawnTexture> copy_of(const Texture& texture, TextureFormat format);
     /// The steps of make_model(). The rigs must not change until the last step.
     std::deque<MultiViewRefinement::Step> model_in_steps(RigHistory& rig,
                                                          const PrepareLevel& level);
@@ -83,9 +86,28 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     bool match_a_step(BackgroundStereoTask::Manner manner);
     /// improve_a_step() with the manner in which background stereo runs.
     bool improve_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner);
+    /// Has the rig's background model made anew as soon as there is time.
+    static void make_model_due(RigHistory& rig);
     void take_match(std::span<const DepthImage> depths_m);
     /// Discards the run in progress. The next one begins at `due_s` on now_s_'s clock.
     void match_anew(double due_s);
+    /// One view of the baked background, made anew when a background model has changed.
+    struct Probe {
+        VirtualView view;
+        std::shared_ptr<const BackgroundProbe> made;
+        double made_s = -1;  ///< on now_s_'s clock; negative: not yet
+    };
+    /// A rig's background model as a surface that can be rendered.
+    struct ModelSurface {
+        std::shared_ptr<const RigSurface> model, surface;
+    };
+    /// Renders or takes over one probe if one is due. Returns true if more are.
+    bool bake_a_step(const VirtualView& target);
+    std::vector<Probe*> nearest_first(const VirtualView& target);
+    /// Whether the probes that a view from here is drawn from have been made.
+    bool are_probes_made(const VirtualView& target);
+    void place_probes(std::span<RigHistory* const> rigs);
+    std::shared_ptr<const RigSurface> model_surface(RigHistory& rig);
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
                                              const PrepareLevel& level);
@@ -115,6 +137,16 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     TriangleBuilder triangles_;
     FullscreenPass show_, now_, show_matched_;
     TilePass colour_performers_;
+    FullscreenPass learnt_colours_, copy_;
+    std::unique_ptr<ViewRenderer> probe_renderer_;
+    std::vector<Probe> probes_;
+    std::vector<DepthView> probe_cameras_;          ///< of the rigs that they were placed for
+    std::map<std::string, ModelSurface> modelled_;  ///< by rig
+    const Texture* probe_picture_ = nullptr;
+    Probe* rendered_ = nullptr;  ///< the probe that probe_renderer_ has
+    double parallax_px_m_ = 0;
+    std::shared_ptr<const InstantExtra> baked_;  ///< null until the first probe is made
+    bool is_background_still_ = true;            ///< nothing that the probes lack
     /// The next instant is shown as early as possible: rigs that it does not show are learnt later.
     bool is_after_cut_ = false;
     double now_s_ = 0;  ///< time of the newest instant since the first one

@@ -83,6 +83,7 @@ class RigHistory {
         double rest_s = 0;  ///< time before a new refinement can gain anything
         double made_s = 0;  ///< on the preparer's clock
         int made = 0;       ///< learnt_instants() by then
+        std::shared_ptr<const DrawnTexture> learnt_m, colour;  ///< steady_depth() and colour() by then
     };
     /// Nothing before the first refinement.
     const std::optional<Model>& model() const { return model_; }

@@ -4,9 +4,16 @@
 #ifndef LAYERS
 #define LAYERS 2
 #endif
+#ifndef BAKED
+#define BAKED 0  // 1: colours that no rig shows come from a baked background
+#endif
 #include "rig_layers.glsl"
+#include "sharp_sample.glsl"
 
 uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = inpainted
+#if BAKED
+uniform sampler2D baked_colour;
+#endif
 uniform float softness;         // relative depth within which two surfaces are one
 
 layout(location = 0) out vec4 fused;
@@ -25,7 +32,11 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec
     float tolerance = softness + spread[i] * q.z;
     float sure = 1.0 - smoothstep(1.0, 2.0, nearest / tolerance);
     if (sure <= 0.0) return;
-    vec4 seen = textureLod(picture, uv, detail_level(pixel_from_target[i], z, q.z));
+    float lod = detail_level(pixel_from_target[i], z, q.z);
+#if BAKED
+    lod = floor(lod + 0.5);  // a software rasteriser then reads one level instead of two
+#endif
+    vec4 seen = textureLod(picture, uv, lod);
     float away = apart(ray_from_pixel * vec3(pixel, 1.0) * z, centre[i]);
     float w = presence[i] * sure * (seen.a + 0.001) * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
     sum += w * seen.rgb;
@@ -40,6 +51,10 @@ void main() {
     fused = vec4(0.0);
     fused_z = 0.0;
     tell_origins(vec4(0.0));
+#if BAKED
+    fused = texelFetch(baked_colour, at, 0);
+    fused_z = own;
+#endif
     if (z == 0.0) return;
     vec3 sum = vec3(0.0);
     vec4 shares = vec4(0.0);
