@@ -9,10 +9,10 @@
 
 namespace vantage {
 
-/// What a row of costs stands for.
+/// Rows of the pictures for each row of costs.
 enum class CostRows {
-    all,    ///< a row of the pictures
-    pairs,  ///< two rows, of whose costs the mean is taken
+    all,    ///< one
+    pairs,  ///< two, whose costs are averaged
 };
 
 /// Matching costs in the form of PermCosts::given, in a pass of their own: where rows are taken in
