@@ -79,11 +79,7 @@ void import_all(const ForeignImportOptions& options, const std::vector<FormFile>
     nlohmann::ordered_json names = nlohmann::ordered_json::array();
     for (const SingleCamera& camera : imported.cameras) {
         const std::string file = camera.name + ".yaml";
-        save_intrinsics(
-            folder / file, camera.model,
-            {.date = date_now(),
-             .tool = tool,
-             .sigma = {.distortion = std::vector<double>(camera.model.distortion.size())}});
+        save_intrinsics(folder / file, camera.model, record_of_foreign_lens(camera.model, tool));
         stage += '\n' + stage_camera_text(camera, file);
         names.push_back(camera.name);
     }
@@ -145,11 +141,8 @@ void import_foreign(const ForeignImportOptions& options) {
                           .row_rms_px = rows ? rows->rms_px : 0,
                           .alpha = settings.alpha});
     else
-        save_intrinsics(
-            options.output, imported.camera,
-            {.date = date_now(),
-             .tool = tool,
-             .sigma = {.distortion = std::vector<double>(imported.camera.distortion.size())}});
+        save_intrinsics(options.output, imported.camera,
+                        record_of_foreign_lens(imported.camera, tool));
     log_info("{} written", options.output);
     if (options.json) {
         nlohmann::ordered_json json{{"path", options.output},

@@ -133,11 +133,8 @@ void form_stage_pairs(const StagePairsOptions& options) {
     for (const CameraPairs::Single& single : formed.singles) {
         SingleCamera camera = cameras[single.camera];
         const std::string file = camera.name + ".yaml";
-        save_intrinsics(
-            folder / file, camera.model,
-            {.date = date_now(),
-             .tool = "vantage-calib stage --pairs auto",
-             .sigma = {.distortion = std::vector<double>(camera.model.distortion.size())}});
+        save_intrinsics(folder / file, camera.model,
+                        record_of_foreign_lens(camera.model, "vantage-calib stage --pairs auto"));
         if (std::filesystem::exists(camera.source))
             camera.source = std::filesystem::absolute(camera.source).string();
         if (!camera.outline.empty()) camera.outline = std::filesystem::absolute(camera.outline);

@@ -84,4 +84,10 @@ std::string date_now() {
     return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", now);
 }
 
+IntrinsicsRecord record_of_foreign_lens(const CameraModel& camera, const std::string& tool) {
+    return {.date = date_now(),
+            .tool = tool,
+            .sigma = {.distortion = std::vector<double>(camera.distortion.size())}};
+}
+
 }  // namespace vantage

@@ -161,12 +161,6 @@ CameraViews shifted(const CameraViews& views, int by) {
         start.translation_spread_m, start.rotation_spread_rad * 57.29578, left_solved.views.size());
 }
 
-/// Rotation of one sensor about its optical axis relative to the other.
-double roll_between_deg(const Pose& right_from_left) {
-    const Eigen::Matrix3d& r = right_from_left.linear();
-    return std::atan2(r(1, 0) - r(0, 1), r(0, 0) + r(1, 1)) * 180 / std::numbers::pi;
-}
-
 void refuse_impossible_rig(const Pose& right_from_left) {
     const double roll = roll_between_deg(right_from_left);
     if (std::abs(roll) > max_roll_deg)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
+#include "common/geometry/axis_crossing.h"
 
 namespace vantage {
 namespace {
@@ -75,18 +76,12 @@ void rectify_for_matcher(CameraPair& pair, double alpha) {
 }  // namespace
 
 Eigen::Vector3d middle_of_stage(const std::vector<SingleCamera>& cameras) {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-    for (const SingleCamera& camera : cameras) {
-        const Eigen::Vector3d axis = axis_of(camera);
-        const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
-        sum += across;
-        weighted += across * camera.world_from_camera.translation();
-    }
+    AxisCrossing axes;
+    for (const SingleCamera& camera : cameras) axes.add(camera.world_from_camera);
     const SingleCamera& first = cameras.front();
     constexpr double least_determinant = 1e-4, usual_m = 3;
-    if (sum.determinant() > least_determinant) {
-        const Eigen::Vector3d middle = sum.inverse() * weighted;
+    if (axes.sum().determinant() > least_determinant) {
+        const Eigen::Vector3d middle = axes.point();
         if ((first.world_from_camera.inverse() * middle).z() > 0) return middle;
     }
     return first.world_from_camera * Eigen::Vector3d(0, 0, usual_m);
@@ -111,9 +106,7 @@ CameraPair pair_of(const std::vector<SingleCamera>& cameras, std::size_t a, std:
     pair.angle_deg =
         std::acos(std::clamp(axis_of(left).dot(axis_of(right)), -1.0, 1.0)) * degrees_of_radian;
     pair.distance_m = (middle - left.world_from_camera.translation()).norm();
-    const Eigen::Matrix3d& turn = c.right_from_left.linear();
-    pair.roll_deg =
-        std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1)) * degrees_of_radian;
+    pair.roll_deg = roll_between_deg(c.right_from_left);
     pair.fault = broken_limit(pair, left, right, limits);
     if (!pair.fault.empty()) return pair;
     try {

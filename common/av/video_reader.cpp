@@ -8,13 +8,6 @@
 #include "common/image/image_file.h"
 
 namespace vantage {
-namespace {
-
-struct CloseInput {
-    void operator()(AVFormatContext* format) const { avformat_close_input(&format); }
-};
-
-}  // namespace
 
 struct VideoReader::Impl {
     explicit Impl(const std::string& path)
@@ -115,7 +108,7 @@ struct VideoReader::Impl {
     }
 
     std::string path_;
-    std::unique_ptr<AVFormatContext, CloseInput> format_;
+    AvInputPtr format_;
     AvCodecContextPtr codec_;
     SwsContextPtr scaler_;
     AvFramePtr frame_;

@@ -72,13 +72,17 @@ double axis_x(const Eigen::Matrix3d& rectified_from_camera) {
 
 }  // namespace
 
+double roll_between_deg(const Pose& right_from_left) {
+    const Eigen::Matrix3d& r = right_from_left.linear();
+    return std::atan2(r(1, 0) - r(0, 1), r(0, 0) + r(1, 1)) * degrees;
+}
+
 PairAim aim_of(const StereoCalibration& c) {
     PairAim aim;
     const double left = axis_x(c.rectified_from_left), right = axis_x(c.rectified_from_right);
     aim.toe_in_deg = (std::atan(left) - std::atan(right)) * degrees;
     if (left > right) aim.crossing_m = c.rectified.baseline_m / (left - right);
-    const Eigen::Matrix3d& r = c.right_from_left.linear();
-    aim.roll_deg = std::atan2(r(1, 0) - r(0, 1), r(0, 0) + r(1, 1)) * degrees;
+    aim.roll_deg = roll_between_deg(c.right_from_left);
     return aim;
 }
 

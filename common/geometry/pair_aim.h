@@ -11,6 +11,9 @@ struct PairAim {
     double roll_deg = 0;    ///< of the right camera about its axis, against the left one
 };
 
+/// Rotation of the right camera about its optical axis relative to the left one, degrees.
+double roll_between_deg(const Pose& right_from_left);
+
 /// Precondition: the rectification is computed.
 PairAim aim_of(const StereoCalibration& calibration);
 

@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "common/geometry/axis_crossing.h"
+
 namespace vantage {
 namespace {
 
@@ -19,19 +21,13 @@ constexpr double nearest = 0.05, farthest = 6, reach = 4;
 constexpr double performers = 0.4, background = 0.8;
 constexpr double floor_margin_m = 0.05, same_place_m = 0.01;
 
-/// The point nearest to the optical axes of all rigs.
+/// The crossing of all rigs' optical axes; nothing if they are nearly parallel.
 std::optional<Eigen::Vector3d> crossing(std::span<const FramedRig> rigs) {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d right = Eigen::Vector3d::Zero();
-    for (const FramedRig& rig : rigs) {
-        const Eigen::Vector3d axis = rig.world_from_camera.linear().col(2);
-        const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
-        sum += across;
-        right += across * rig.world_from_camera.translation();
-    }
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(sum);
+    AxisCrossing axes;
+    for (const FramedRig& rig : rigs) axes.add(rig.world_from_camera);
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(axes.sum());
     if (svd.singularValues()[2] < min_crossing * svd.singularValues()[0]) return std::nullopt;
-    return sum.inverse() * right;
+    return axes.point();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <Eigen/LU>
 
 #include "common/base/error.h"
+#include "common/geometry/axis_crossing.h"
 
 namespace vantage {
 namespace {
@@ -39,17 +40,11 @@ struct OtherOutline {
     }
 };
 
-/// The point nearest to the axes of all views.
 Eigen::Vector3d middle_of(const std::vector<DepthView>& views) {
-    Eigen::Matrix3d sum = Eigen::Matrix3d::Identity() * 1e-9;
-    Eigen::Vector3d weighted = Eigen::Vector3d::Zero();
-    for (const DepthView& view : views) {
-        const Eigen::Vector3d axis = view.world_from_camera.linear().col(2);
-        const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - axis * axis.transpose();
-        sum += across;
-        weighted += across * view.world_from_camera.translation();
-    }
-    return sum.inverse() * weighted;
+    AxisCrossing axes;
+    for (const DepthView& view : views) axes.add(view.world_from_camera);
+    constexpr double for_parallel_axes = 1e-9;
+    return axes.point(for_parallel_axes);
 }
 
 float nearest_hull_depth(const std::vector<OtherOutline>& others, const Eigen::Vector2d& pixel,
