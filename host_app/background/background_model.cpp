@@ -126,6 +126,15 @@ void BackgroundModel::set_background_now(Program& program, const RigHistory& rig
                                : 0.0f);
 }
 
+void BackgroundModel::set_model_then(Program& program, const RigHistory& rig) {
+    const std::optional<RigHistory::Model>& model = rig.model();
+    const Texture& state = rig.background_state().state();
+    program.input("depth_then", model ? model->learnt_m->texture() : state);
+    program.input("colour_then", model ? model->colour->texture() : rig.colour_mean());
+    program.input("background_colour", rig.colour_mean());
+    program.set("spread", depth_spread(rig.camera()));
+}
+
 float BackgroundModel::max_instants(const RigHistory& rig) {
     return instants_of(depth_mean_s, rig.dt_s(), 8, max_depth_mean);
 }
@@ -212,15 +221,16 @@ BackgroundModel::Look BackgroundModel::look_at(const RigHistory& rig) {
     sampled_.resize(sampled);
     Program& known = known_.use();
     known.input("background_state", rig.background_state().state());
-    known.input("background_colour", rig.colour_mean());
+    set_model_then(known, rig);
     known.set("known_after", known_after(rig));
     known.input("matte", rig.matte());
     known.set("sample_share", Eigen::Vector2f(1.0f / static_cast<float>(sampled.width),
                                               1.0f / static_cast<float>(sampled.height)));
     known_.draw(sampled_.target());
-    std::array<cv::Mat1b, 2> seen;
+    std::array<cv::Mat1b, 4> seen;
     cv::split(sampled_.texture().download(), seen.data());
-    return {cv::countNonZero(seen[0]) / static_cast<double>(sampled.area()), seen[1]};
+    const double samples = sampled.area();
+    return {cv::countNonZero(seen[0]) / samples, cv::countNonZero(seen[2]) / samples, seen[1]};
 }
 
 }  // namespace vantage

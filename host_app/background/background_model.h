@@ -39,8 +39,9 @@ class BackgroundModel {
     /// for learnt().
     static BackgroundView picture(const RigHistory& rig);
     struct Look {
-        double known_share = 0;  ///< of the rig's pixels, those whose background is known
-        cv::Mat1b matte;         ///< reduced, 0..255
+        double known_share = 0;    ///< of the rig's pixels, those whose background is known
+        double changed_share = 0;  ///< those whose background has changed since its model was made
+        cv::Mat1b matte;           ///< reduced, 0..255
     };
     /// Reads back a summary for operators. Precondition as for learnt().
     Look look_at(const RigHistory& rig);
@@ -48,6 +49,9 @@ class BackgroundModel {
     /// Sets the inputs and uniforms of background_now.glsl from a rig; `state` is the state of its
     /// background.
     static void set_background_now(Program& program, const RigHistory& rig, const Texture& state);
+
+    /// Sets the inputs and uniforms of background_changed.glsl from a rig.
+    static void set_model_then(Program& program, const RigHistory& rig);
 
     /// Instants in the mean of a pixel's depth, at most.
     static float max_instants(const RigHistory& rig);
@@ -60,7 +64,7 @@ class BackgroundModel {
     FullscreenPass tiles_;
     TilePass matte_, edges_;
     FullscreenPass learn_, colour_, known_;
-    DrawnTexture sampled_{TextureFormat::rg8};
+    DrawnTexture sampled_{TextureFormat::rgba8};
     DrawnTexture hard_{TextureFormat::r8, Filter::linear};
 };
 

@@ -8,31 +8,51 @@ ForegroundLayers::ForegroundLayers(const ShaderLibrary& library)
     : layers_(library, RigLayers::Depths::matted),
       find_(library, "foreground_show.frag", same_surface_share, {{"FIRST", "1"}}),
       show_(library, "foreground_show.frag", same_surface_share),
-      show_plainly_(library, "foreground_show.frag", same_surface_share, {{"PLAIN", "1"}}) {}
+      show_plainly_(library, "foreground_show.frag", same_surface_share, {{"PLAIN", "1"}}),
+      find_alone_(library, "foreground_show.frag", same_surface_share,
+                  {{"FIRST", "1"}, {"ALONE", "1"}}),
+      show_alone_(library, "foreground_show.frag", same_surface_share,
+                  {{"PLAIN", "1"}, {"ALONE", "1"}}) {}
 
 const DepthPicture& ForegroundLayers::show(const Texture& picture, const Texture& depth_m,
                                            const Texture* shares,
                                            std::span<const DrawnLayer> performers,
                                            const VirtualView& target, bool is_plain) {
+    return show(find_, is_plain ? show_plainly_ : show_, &picture, depth_m, shares != nullptr,
+                shares, performers, target);
+}
+
+const DepthPicture& ForegroundLayers::show_alone(const Texture& background_m, bool notes_shares,
+                                                 std::span<const DrawnLayer> performers,
+                                                 const VirtualView& target) {
+    return show(find_alone_, show_alone_, nullptr, background_m, notes_shares, nullptr, performers,
+                target);
+}
+
+const DepthPicture& ForegroundLayers::show(LayerPass& find, LayerPass& show, const Texture* picture,
+                                           const Texture& depth_m, bool has_shares,
+                                           const Texture* shares,
+                                           std::span<const DrawnLayer> performers,
+                                           const VirtualView& target) {
     constexpr std::size_t finely = 0;
     layers_.draw(performers, target, finely);
     open_.resize({target.width_px, target.height_px});
-    shown_.resize({target.width_px, target.height_px}, shares != nullptr, &open_.texture());
+    shown_.resize({target.width_px, target.height_px}, has_shares, &open_.texture());
     const auto ready = [&](LayerPass& pass) -> FullscreenPass& {
-        FullscreenPass& drawing = pass.use(layers_, shares != nullptr);
+        FullscreenPass& drawing = pass.use(layers_, has_shares);
         Program& program = drawing.use();
         int unit = layers_.first_free_unit();
         const auto bind = [&](const char* name, const Texture& texture) {
             texture.bind(unit);
             program.set(name, unit++);
         };
-        bind("picture", picture);
         bind("background_depth", depth_m);
+        if (picture) bind("picture", *picture);
         if (shares) bind("background_shares", *shares);
         return drawing;
     };
-    ready(find_).draw_depth(shown_.target());
-    TwoStagePass::draw_left(ready(is_plain ? show_plainly_ : show_), shown_.target());
+    ready(find).draw_depth(shown_.target());
+    TwoStagePass::draw_left(ready(show), shown_.target());
     return shown_;
 }
 

@@ -22,9 +22,19 @@ class ForegroundLayers {
                              std::span<const DrawnLayer> performers, const VirtualView& target,
                              bool is_plain);
 
+    /// The foreground without a background's picture, plainly: its colours are premultiplied by
+    /// alpha, and depth is 0 where nothing stands. `background_m` hides what stands behind it.
+    const DepthPicture& show_alone(const Texture& background_m, bool notes_shares,
+                                   std::span<const DrawnLayer> performers,
+                                   const VirtualView& target);
+
   private:
+    const DepthPicture& show(LayerPass& find, LayerPass& show, const Texture* picture,
+                             const Texture& depth_m, bool has_shares, const Texture* shares,
+                             std::span<const DrawnLayer> performers, const VirtualView& target);
+
     RigLayers layers_;
-    LayerPass find_, show_, show_plainly_;
+    LayerPass find_, show_, show_plainly_, find_alone_, show_alone_;
     DepthPicture shown_;
     DrawnDepth open_;
 };

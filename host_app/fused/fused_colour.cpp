@@ -20,7 +20,8 @@ FusedColour::FusedColour(const ShaderLibrary& library)
                   1, 3),
       inner_(library, fragment, same_surface_share, {{"EDGES", "0"}}),
       edges_(library, fragment, same_surface_share, {{"EDGES", "1"}}),
-      plain_(library, "fused_plain.frag", same_surface_share) {}
+      plain_(library, "fused_plain.frag", same_surface_share),
+      on_baked_(library, "fused_plain.frag", same_surface_share, {{"BAKED", "1"}}) {}
 
 const Texture& FusedColour::sort(const Texture& fused_depth) {
     kinds_.resize(fused_depth.size());
@@ -51,6 +52,23 @@ FullscreenPass& FusedColour::use(LayerPass& pass, const RigLayers& layers,
 void FusedColour::draw_plainly(const RigLayers& layers, const Texture& fused_depth,
                                const DepthPicture& into, bool notes_origins) {
     use(plain_, layers, fused_depth, notes_origins).draw(into.target());
+}
+
+void FusedColour::draw_on_baked(const RigLayers& layers, const Texture& baked_depth,
+                                const Texture& baked_colour, const DepthPicture& foreground,
+                                const DepthPicture& into, bool notes_origins) {
+    FullscreenPass& pass = use(on_baked_, layers, baked_depth, notes_origins);
+    Program& program = pass.use();
+    int unit = layers.first_free_unit() + 1;
+    const auto bind = [&](const char* name, const Texture& texture) {
+        texture.bind(unit);
+        program.set(name, unit++);
+    };
+    bind("baked_colour", baked_colour);
+    bind("foreground", foreground.colour());
+    bind("foreground_depth", foreground.depth_m());
+    if (notes_origins) bind("foreground_shares", *foreground.shares());
+    pass.overwrite(into.target());
 }
 
 void FusedColour::draw(const RigLayers& layers, const Texture& fused_depth,

@@ -1,10 +1,13 @@
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
-#include "common/gl/two_stage_pass.h"
+#include "host_app/baked/background_probe.h"
+#include "host_app/baked/baked_painter.h"
 #include "host_app/fused/foreground_layers.h"
 #include "host_app/fused/fused_colour.h"
+#include "host_app/fused/fused_depth.h"
 #include "host_app/fused/impulse_filter.h"
 #include "host_app/fused/staged_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
@@ -20,43 +23,44 @@ namespace {
 class FusedRenderer final : public ViewRenderer {
   public:
     explicit FusedRenderer(const ShaderLibrary& library)
-        : colour_(library), blender_(library), impulses_(library), performers_(library) {
-        for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
-            depth_pass_.emplace_back(library, "fused_depth.frag",
-                                     ShaderDefines{{"LAYERS", std::to_string(layers)}});
-    }
+        : colour_(library),
+          blender_(library),
+          impulses_(library),
+          performers_(library),
+          baked_(library),
+          depth_(library) {}
 
     const Texture& render(const Instant& instant, const VirtualView& view,
                           const RenderLevel& level) override {
-        RigLayers& layers = blender_.layers();
         const std::vector<const InstantRig*> rigs = ranked_rigs(instant, view, level.rigs);
+        const auto* extra = dynamic_cast<const BakedExtra*>(instant.extra.get());
+        const bool has_foreground = !rigs.empty() && rigs.front()->boundary;
+        // A driver compiles a shader when it is first used: not when the first probe is there.
+        if (level.is_plain && has_foreground && !std::exchange(is_baked_warm_, true))
+            (void)render_baked({}, rigs, view);
+        if (level.is_plain && has_foreground && extra)
+            return render_baked(extra->background, rigs, view);
+        RigLayers& layers = blender_.layers();
         layers.draw(layers_of(rigs), view, finely_drawn(instant, level));
-        fused_depth_.resize({view.width_px, view.height_px});
-        const Texture* kinds = nullptr;
+        const Texture *fused_depth = nullptr, *kinds = nullptr;
         if (!layers.used().empty()) {
-            find_depth();
-            if (!level.is_plain) kinds = &colour_.sort(fused_depth_.texture());
+            fused_depth = &depth_.find(layers, {view.width_px, view.height_px});
+            if (!level.is_plain) kinds = &colour_.sort(*fused_depth);
         }
         const Texture& set = blender_.blend(
             view,
             [&](const DepthPicture& into, bool notes_origins) {
                 if (level.is_plain)
-                    colour_.draw_plainly(layers, fused_depth_.texture(), into, notes_origins);
+                    colour_.draw_plainly(layers, *fused_depth, into, notes_origins);
                 else
-                    colour_.draw(layers, fused_depth_.texture(), into, notes_origins);
+                    colour_.draw(layers, *fused_depth, into, notes_origins);
             },
             {}, kinds);
         origins_.reset();
         depth_m_ = nullptr;
         if (blender_.origins()) origins_ = *blender_.origins();
         if (layers.used().empty()) return set;
-        const std::vector<DrawnLayer> performers = layers_of(rigs, &InstantRig::boundary);
-        const DepthPicture& picture =
-            performers_.show(set, fused_depth_.texture(), origins_ ? origins_->shares : nullptr,
-                             performers, view, level.is_plain);
-        if (origins_) origins_->shares = picture.shares();
-        depth_m_ = &picture.depth_m();
-        return impulses_.filter(picture.colour(), *depth_m_);
+        return with_performers(set, *fused_depth, rigs, view, level);
     }
 
     bool note_origins(bool noted) override {
@@ -67,22 +71,54 @@ class FusedRenderer final : public ViewRenderer {
     const Texture* depth_m() const override { return depth_m_; }
 
   private:
-    void find_depth() {
-        const RigLayers& layers = blender_.layers();
-        depth_pass_[layers.used().size() - 1].draw(fused_depth_.target(), [&](Program& program) {
-            layers.bind(program);
-            program.set("softness", same_surface_share);
-        });
+    /// Draws a view of a baked background with the rigs' colours and foregrounds of this instant.
+    const Texture& render_baked(const BakedBackground& background,
+                                std::span<const InstantRig* const> rigs, const VirtualView& view) {
+        const bool notes_origins = blender_.notes_origins();
+        RigLayers& layers = blender_.layers();
+        layers.begin(layers_of(rigs), view);
+        baked_.draw(background, view);
+        const DepthPicture& foreground = performers_.show_alone(
+            baked_.depth_m(), notes_origins, layers_of(rigs, &InstantRig::boundary), view);
+        picture_.resize({view.width_px, view.height_px}, notes_origins);
+        colour_.draw_on_baked(layers, baked_.depth_m(), baked_.colour(), foreground, picture_,
+                              notes_origins);
+        origins_.reset();
+        if (notes_origins) {
+            origins_ = {picture_.shares(), {}};
+            for (const DrawnLayer& layer : layers.used())
+                origins_->rigs.push_back(layer.surface->camera().name);
+        }
+        depth_m_ = &picture_.depth_m();
+        return picture_.colour();
+    }
+
+    /// Draws the rigs' foregrounds over a picture of the background and removes impulses.
+    const Texture& with_performers(const Texture& background, const Texture& background_m,
+                                   std::span<const InstantRig* const> rigs, const VirtualView& view,
+                                   const RenderLevel& level) {
+        if (!rigs.front()->boundary) {
+            depth_m_ = &background_m;
+            return impulses_.filter(background, background_m);
+        }
+        const DepthPicture& picture =
+            performers_.show(background, background_m, origins_ ? origins_->shares : nullptr,
+                             layers_of(rigs, &InstantRig::boundary), view, level.is_plain);
+        if (origins_) origins_->shares = picture.shares();
+        depth_m_ = &picture.depth_m();
+        return impulses_.filter(picture.colour(), *depth_m_);
     }
 
     FusedColour colour_;
     LayerBlender blender_;
     ImpulseFilter impulses_;
     ForegroundLayers performers_;
+    BakedPainter baked_;
+    FusedDepth depth_;
+    bool is_baked_warm_ = false;
+    DepthPicture picture_;  ///< of the background, where it is baked
     std::optional<PixelOrigins> origins_;
     const Texture* depth_m_ = nullptr;
-    std::vector<TwoStagePass> depth_pass_;  ///< one for every number of layers
-    DrawnTexture fused_depth_{TextureFormat::r32f, Filter::nearest, false, DrawnWith::depth_test};
 };
 
 }  // namespace

@@ -20,6 +20,12 @@ constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
 /// Time from the first learning to background stereo, and between two runs of it: the first time,
 /// and doubled each time up to the longest, since results for a still background hardly change.
 constexpr double learnt_before_match_s = 2.5, first_match_rest_s = 5, longest_match_rest_s = 80;
+/// Instants that a background must be learnt from before it is baked: earlier it may still hold
+/// performers.
+constexpr int baked_from = 5;
+/// Share of a rig's picture whose background has changed, from which on its model is patched at
+/// once and what was baked before is not drawn any more.
+constexpr double changed_share_to_patch = 0.01;
 /// Time for which the cheapest levels keep a known background's shape; colours are always new.
 constexpr double shape_kept_s = 1;
 /// Instants that must be learnt before hidden parts of the background are remembered.
@@ -39,7 +45,10 @@ StagedPreparer::StagedPreparer(const ShaderLibrary& library)
       show_(library, "background_show.frag"),
       now_(library, "colours_now.frag"),
       show_matched_(library, "background_matched.frag"),
-      colour_performers_(library, "foreground_colour.frag") {
+      colour_performers_(library, "foreground_colour.frag"),
+      copy_(library, "copy.frag"),
+      patch_(library, "background_patch.frag"),
+      baker_(library) {
     match_anew(learnt_before_match_s);
 }
 
@@ -50,7 +59,11 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     learnt_.clear();
     has_depths_.clear();
     if (std::exchange(is_after_cut_, false)) return;
-    learn(level_.is_refined ? uploaded_ : rigs_in_turn());
+    // Nothing is baked before every rig's background is known.
+    const bool are_known =
+        std::all_of(uploaded_.begin(), uploaded_.end(),
+                    [](const RigHistory* rig) { return rig->learnt_instants() >= baked_from; });
+    learn(level_.is_refined || !are_known ? uploaded_ : rigs_in_turn());
     if (now_s_ - looked_s_ >= look_period_s || states_.size() != uploaded_.size()) look_at_sets();
 }
 
@@ -67,6 +80,11 @@ void StagedPreparer::warm_up(std::span<const DepthView> views, const VirtualView
         rig->set_background_match(none, none, ColourImage(none.size()));
     }
     improve(target);
+    std::vector<RigHistory*> modelled;
+    for (RigHistory* rig : uploaded_)
+        if (rig->model()) modelled.push_back(rig);
+    while (baker_.step(modelled, target, now_s_, true)) continue;
+    baker_.forget();
     level_ = prepare_levels().front();
     rigs_.forget();
     improved_s_ = now_s_;
@@ -128,10 +146,21 @@ void StagedPreparer::begin_with_learnt(RigHistory& rig) {
 void StagedPreparer::look_at_sets() {
     looked_s_ = now_s_;
     states_.clear();
-    for (const RigHistory* rig : uploaded_) {
+    for (RigHistory* rig : uploaded_) {
         const auto misfit = misfits_.find(rig->camera().name);
+        const bool is_learnt = rig->learnt_instants() > 0;
         const BackgroundModel::Look look =
-            rig->learnt_instants() > 0 ? sets_.look_at(*rig) : BackgroundModel::Look();
+            is_learnt ? sets_.look_at(*rig) : BackgroundModel::Look();
+        const bool is_first =
+            rig->learnt_instants() >= baked_from && rig->model() && rig->model()->made < baked_from;
+        const bool has_changed = look.changed_share > changed_share_to_patch;
+        if (has_changed) baker_.note_change(now_s_);
+        if (is_first || has_changed) {
+            if (level_.is_refined)
+                make_model_due(*rig);
+            else
+                make_model(*rig, prepare_levels().back());
+        }
         states_.push_back({.rig = rig->camera().name,
                            .known = look.known_share,
                            .is_loaded = misfit != misfits_.end() && misfit->second.empty(),
@@ -150,6 +179,7 @@ void StagedPreparer::begin_with(std::shared_ptr<const Background> set) {
 void StagedPreparer::learn_anew() {
     begin_with(nullptr);
     rigs_.forget();
+    baker_.forget();
 }
 
 Background StagedPreparer::learnt() const {
@@ -219,12 +249,15 @@ void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
         if (!rigs_.has_learnt(rig) || rig->depth().size() != matched->depth_sizes[i]) continue;
         if (cv::countNonZero(depths_m[i]) == 0) continue;  // no other rig stands far enough from it
         rig->set_background_match(depths_m[i], matched->sets[i].depth_m, matched->sets[i].colour);
-        if (!rig->model()) continue;
-        // The model is due as soon as there is time.
-        RigHistory::Model model = *rig->model();
-        model.rest_s = 0;
-        rig->set_background_model(model);
+        make_model_due(*rig);
     }
+}
+
+void StagedPreparer::make_model_due(RigHistory& rig) {
+    if (!rig.model() || rig.model()->rest_s == 0) return;
+    RigHistory::Model model = *rig.model();
+    model.rest_s = 0;
+    rig.set_background_model(model);
 }
 
 void StagedPreparer::match_anew(double due_s) {
@@ -233,19 +266,44 @@ void StagedPreparer::match_anew(double due_s) {
     match_rest_s_ = first_match_rest_s;
 }
 
+std::shared_ptr<const DrawnTexture> StagedPreparer::copy_of(const Texture& texture,
+                                                            TextureFormat format) {
+    auto copy = std::make_shared<DrawnTexture>(format);
+    copy->resize(texture.size());
+    copy_.use().input("source", texture);
+    copy_.draw(copy->target());
+    return copy;
+}
+
+const Texture& StagedPreparer::patched_model(const RigHistory& rig) {
+    patched_.resize(rig.depth().size());
+    Program& patch = patch_.use();
+    patch.input("model", rig.model()->surface->depth());
+    patch.input("background_state", rig.background_state().state());
+    BackgroundModel::set_model_then(patch, rig);
+    patch_.draw(patched_.target());
+    return patched_.texture();
+}
+
 std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory& rig,
                                                                      const PrepareLevel& level) {
     rig.generate_mipmaps();
     const Texture* depth_m = &rig.steady_depth();
     const Texture* measured_m = depth_m;
-    std::deque<MultiViewRefinement::Step> steps;
-    if (level.is_refined) steps = refinement_.in_steps([&] { depth_m = &refined_background(rig); });
     const std::optional<RigHistory::Model>& before = rig.model();
+    const bool is_patched = !level.is_refined && before && before->rank == 0;
+    std::deque<MultiViewRefinement::Step> steps;
+    if (level.is_refined)
+        steps = refinement_.in_steps([&] { depth_m = &refined_background(rig); });
+    else if (is_patched)
+        depth_m = &patched_model(rig);
     RigHistory::Model made{.surface = nullptr,
                            .rank = level.rank,
                            .rest_s = first_model_rest_s,
                            .made_s = now_s_,
-                           .made = rig.learnt_instants()};
+                           .made = is_patched ? before->made : rig.learnt_instants(),
+                           .learnt_m = copy_of(*measured_m, TextureFormat::r32f),
+                           .colour = copy_of(rig.colour(), TextureFormat::rgba8)};
     if (before && before->rank == 0)
         made.rest_s = std::clamp(2 * before->rest_s, first_model_rest_s, longest_model_rest_s);
     steps.push_back([=, this, &rig, &colour = rig.colour()]() mutable {
@@ -259,7 +317,7 @@ std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory&
 }
 
 void StagedPreparer::make_model(RigHistory& rig, const PrepareLevel& level) {
-    refinement_pass_.reset();
+    if (level.is_refined) refinement_pass_.reset();
     for (const MultiViewRefinement::Step& step : model_in_steps(rig, level)) step();
 }
 
@@ -321,7 +379,9 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
                                                          const Texture& performers_m,
                                                          const PrepareLevel& level) {
     const std::shared_ptr<RigSurface> surface = surfaces_.take(shapes_);
-    if (has_shape(rig, level)) {
+    if (is_baked_) {
+        surface->begin_like(*baker_.surface_of(rig), rig.samples());
+    } else if (has_shape(rig, level)) {
         surface->begin_like(*rig.surface(), rig.samples());
     } else {
         surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
@@ -357,12 +417,30 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
     const std::vector<RigHistory*> rigs = most_useful(rigs_.shown(), target, level.rigs);
     level_ = level;
     prepared_rigs_ = {rigs.begin(), rigs.end()};
+    if (level.rank > 0) instant->extra = baker_.baked_for(target);
+    is_baked_ = instant->extra != nullptr;
     learn(level.is_refined ? uploaded_ : rigs);
     for (RigHistory* rig : rigs) {
         if (!rig->prepared_rank() || *rig->prepared_rank() > level.rank) publish(*rig, level);
         instant->rigs.push_back({rig->surface(), rig->performers(), rig->presence()});
     }
     return instant;
+}
+
+bool StagedPreparer::bake_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner) {
+    // The best level draws no baked background.
+    if (level_.rank == 0) return false;
+    const auto is_known = [](const RigHistory* rig) {
+        return rig->model() && rig->model()->made >= baked_from;
+    };
+    std::vector<RigHistory*> rigs = rigs_.shown();
+    if (!std::all_of(rigs.begin(), rigs.end(), is_known)) return false;
+    // Views come in any order.
+    std::sort(rigs.begin(), rigs.end(), [](const RigHistory* a, const RigHistory* b) {
+        return a->camera().name < b->camera().name;
+    });
+    return baker_.step(rigs, target, now_s_,
+                       manner == BackgroundStereoTask::Manner::when_waited_for);
 }
 
 void StagedPreparer::improve(const VirtualView& target) {
@@ -374,6 +452,7 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
                                     BackgroundStereoTask::Manner manner) {
     if (match_a_step(manner)) return true;
     if (refinement_pass_ && !is_under_way(*refinement_pass_)) refinement_pass_.reset();
+    if (!refinement_pass_ && bake_a_step(target, manner)) return true;
     if (!refinement_pass_) begin_refining(target);
     if (!refinement_pass_) return false;
     const MultiViewRefinement::Step step = std::move(refinement_pass_->steps.front());
@@ -387,16 +466,18 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
 }
 
 void StagedPreparer::begin_refining(const VirtualView& target) {
-    if (now_s_ - improved_s_ < improvement_period_s) return;
-    // The rig in view whose model has been due for longest.
+    // The rig whose model has been due for longest; one without a model is due at once.
     const auto due_s = [](const RigHistory& rig) {
+        if (!rig.model()) return -1.0;
         return rig.model()->made_s + (rig.model()->rank == 0 ? rig.model()->rest_s : 0);
     };
     RigHistory* oldest = nullptr;
-    for (RigHistory* rig : most_useful(rigs_.shown(), target, most_drawn_rigs))
-        if (rig->model() && due_s(*rig) <= now_s_ && (!oldest || due_s(*rig) < due_s(*oldest)))
-            oldest = rig;
-    if (!oldest) return;
+    const auto look_at = [&](RigHistory* rig) {
+        if (due_s(*rig) <= now_s_ && (!oldest || due_s(*rig) < due_s(*oldest))) oldest = rig;
+    };
+    for (RigHistory* rig : most_useful(rigs_.shown(), target, most_drawn_rigs)) look_at(rig);
+    for (RigHistory* rig : rigs_.shown()) look_at(rig);
+    if (!oldest || (oldest->model() && now_s_ - improved_s_ < improvement_period_s)) return;
     learn(uploaded_);
     refinement_pass_.emplace();
     for (RigHistory* rig : rigs_.shown())

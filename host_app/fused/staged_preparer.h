@@ -11,6 +11,7 @@
 #include "host_app/background/background_model.h"
 #include "host_app/background/background_stereo_task.h"
 #include "host_app/foreground/foreground_depth.h"
+#include "host_app/fused/background_baker.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/refine/depth_inpainting.h"
 #include "host_app/refine/edge_confidence.h"
@@ -34,6 +35,7 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     bool improve_a_step(const VirtualView& target) override {
         return improve_a_step(target, BackgroundStereoTask::Manner::beside);
     }
+    bool is_improvement_urgent() const override { return baker_.is_first_under_way(); }
     void warm_up(std::span<const DepthView> views, const VirtualView& target) override;
     void cut() override;
     BackgroundAccess* background_access() override { return this; }
@@ -65,10 +67,14 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     void begin_refining(const VirtualView& target);
     /// Whether all rigs that it needs are unchanged.
     bool is_under_way(const Refining& refining) const;
+    std::shared_ptr<const DrawnTexture> copy_of(const Texture& texture, TextureFormat format);
+    /// Returns the depth of a rig's background model, with the learnt depth where the background
+    /// has changed since.
+    const Texture& patched_model(const RigHistory& rig);
     /// The steps of make_model(). The rigs must not change until the last step.
     std::deque<MultiViewRefinement::Step> model_in_steps(RigHistory& rig,
                                                          const PrepareLevel& level);
-    /// Makes the rig's background model anew.
+    /// Makes the rig's background model anew; a level that is not refined patches a refined one.
     void make_model(RigHistory& rig, const PrepareLevel& level);
     /// Returns the rig's background depth, refined by the other rigs.
     const Texture& refined_background(RigHistory& rig);
@@ -83,9 +89,13 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     bool match_a_step(BackgroundStereoTask::Manner manner);
     /// improve_a_step() with the manner in which background stereo runs.
     bool improve_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner);
+    /// Has the rig's background model made anew as soon as there is time.
+    static void make_model_due(RigHistory& rig);
     void take_match(std::span<const DepthImage> depths_m);
     /// Discards the run in progress. The next one begins at `due_s` on now_s_'s clock.
     void match_anew(double due_s);
+    /// Does a step of baking if one is due. Returns true if more are.
+    bool bake_a_step(const VirtualView& target, BackgroundStereoTask::Manner manner);
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
                                              const PrepareLevel& level);
@@ -115,6 +125,10 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     TriangleBuilder triangles_;
     FullscreenPass show_, now_, show_matched_;
     TilePass colour_performers_;
+    FullscreenPass copy_, patch_;
+    DrawnTexture patched_{TextureFormat::r32f};
+    BackgroundBaker baker_;
+    bool is_baked_ = false;  ///< the present instant is drawn from what baker_ has
     /// The next instant is shown as early as possible: rigs that it does not show are learnt later.
     bool is_after_cut_ = false;
     double now_s_ = 0;  ///< time of the newest instant since the first one

@@ -50,6 +50,9 @@ class InstantPreparer {
     /// Does one step of improve(), about as long as one pass takes. Returns true if more steps of
     /// the same work are left.
     virtual bool improve_a_step(const VirtualView& /*target*/) { return false; }
+    /// Whether the steps under way make every later picture much cheaper, so that an instant may
+    /// wait for them.
+    virtual bool is_improvement_urgent() const { return false; }
 
     /// Runs every pass that these views may ever need and learns nothing: a driver compiles a
     /// shader when it is first used, which takes seconds for all of them. Precondition: nothing was

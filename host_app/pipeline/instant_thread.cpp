@@ -123,7 +123,8 @@ class InstantThread::Loop {
                      MonotonicTime taken_up);
     /// Prepares the shown instant again if the request asks for a better or another one.
     void refine_shown(const InstantRequest& request);
-    void refine_background(const InstantRequest& request);
+    /// Returns true if more is left to do.
+    bool refine_background(const InstantRequest& request);
     /// Asks the rigs that the views need to send, and the others to stop.
     void ask_for_rigs(std::span<const DepthView> views, const InstantRequest& request);
     /// Prepares `ready` for the request and makes it the newest instant.
@@ -431,7 +432,10 @@ void InstantThread::Loop::prepare_set(FrameSetSource::Past next, const InstantRe
          .prepare_ms = last_.prepare_ms,
          .gain_compensation = views_.gains(),
          .backgrounds = background ? background->states() : std::vector<RigBackgroundState>()});
-    if (is_live && refining_.has_some(MonotonicClock::now())) refine_background(request);
+    while (is_live &&
+           (refining_.has_some(MonotonicClock::now()) || preparer_->is_improvement_urgent()) &&
+           refine_background(request))
+        continue;
 }
 
 void InstantThread::Loop::refine_shown(const InstantRequest& request) {
@@ -442,10 +446,12 @@ void InstantThread::Loop::refine_shown(const InstantRequest& request) {
     refined_ = start;
 }
 
-void InstantThread::Loop::refine_background(const InstantRequest& request) {
+bool InstantThread::Loop::refine_background(const InstantRequest& request) {
     const MonotonicTime start = MonotonicClock::now();
-    (void)unless_time_jumps(request, [&] { preparer_->improve_a_step(request.target); });
+    bool has_more = false;
+    (void)unless_time_jumps(request, [&] { has_more = preparer_->improve_a_step(request.target); });
     refining_.spend(MonotonicClock::now() - start);
+    return has_more;
 }
 
 void InstantThread::Loop::ask_for_rigs(std::span<const DepthView> views,

@@ -15,7 +15,7 @@ constexpr int max_misfits = 3;
 constexpr double far_off = 2;
 /// The level rises if the next better one is expected to take less than this share of its time. For
 /// a level that was not tried the expectation is the present time multiplied by `untried_ratio`.
-constexpr double room = 0.75, untried_ratio = 1.6;
+constexpr double room = 0.75, untried_ratio = 1.4;
 /// Wait before the level rises: before the first fall, after it, and at most.
 constexpr double min_wait_s = 0.5, first_wait_s = 2, max_wait_s = 60;
 /// Rising was a mistake if the level has to fall within this time.
@@ -24,12 +24,14 @@ constexpr double mistake_s = 5;
 constexpr double mean_share = 0.2;
 /// Shares of a tick for rendering and of the time between two pulses for preparing. Rendering has
 /// priority over preparing and so delays instants. The time of preparing includes these delays.
-constexpr double rendering_share = 0.65, preparing_share = 0.9;
+constexpr double full_rendering_share = 0.65, preparing_share = 0.7;
+/// Frames may take this much more of the time than the share by which their level is chosen.
+constexpr double budget_margin = 0.1;
 /// If the cheapest instants do not fit, the share of rendering is reduced by a factor at every
 /// instant, down to a minimum; if they fit with room, it is raised again.
 constexpr double min_rendering_share = 0.3, reduction = 0.93, recovery_factor = 1.03;
 /// Upper limit for a frame that is reprojected meanwhile, besides half of the time between pulses.
-constexpr double max_frame_ms = 100;
+constexpr double max_frame_ms = 64;
 /// Time to prepare the instant after a jump in time, which shall take 200 ms in all.
 constexpr double sought_ms = 80;
 
@@ -127,6 +129,8 @@ QualityRequest QualityRequest::parse(const std::string& text) {
     return {level};
 }
 
+double Governor::rendering_budget() const { return rendering_share_ + budget_margin; }
+
 const PrepareLevel& Governor::prepare_sought() const {
     return prepare_levels()[prepare_.fitting(sought_ms)];
 }
@@ -138,7 +142,7 @@ void Governor::saw_prepare(int rank, double ms, MonotonicTime now) {
     if (is_cheapest && ms > allowed_ms)
         rendering_share_ = std::max(min_rendering_share, reduction * rendering_share_);
     else if (ms < room * allowed_ms)
-        rendering_share_ = std::min(rendering_share, recovery_factor * rendering_share_);
+        rendering_share_ = std::min(full_rendering_share, recovery_factor * rendering_share_);
     render_.set_share(rendering_share_);
 }
 
@@ -162,8 +166,8 @@ Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityRequest& r
     : tick_ms_(1000 / rate_hz),
       instant_ms_(1000 / pulse_rate_hz),
       reprojected_frame_ms_(std::max(tick_ms_, std::min(max_frame_ms, 0.5 * instant_ms_))),
-      rendering_share_(rendering_share),
-      render_(render_levels().size(), rendering_share),
+      rendering_share_(full_rendering_share),
+      render_(render_levels().size(), full_rendering_share),
       prepare_(prepare_levels().size(), preparing_share) {
     // The level is raised from the cheapest one, so that frames are in time from the start.
     if (!request.level) {

@@ -83,6 +83,8 @@ class Governor {
     /// Number of moments per pulse that are prepared in slow motion at this speed: at most as many
     /// per second as there are live pulses, and as the time allows. 1: pulses only.
     int moments_a_pulse(double speed) const;
+    /// The share of the time that frames may take in all, less if instants are late beside them.
+    double rendering_budget() const;
     std::vector<double> render_shares(MonotonicTime now) const { return render_.shares(now); }
     std::vector<double> prepare_shares(MonotonicTime now) const { return prepare_.shares(now); }
 

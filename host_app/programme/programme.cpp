@@ -258,7 +258,7 @@ bool Programme::is_worth_rendering() {
 }
 
 bool Programme::has_picture_time(MonotonicTime now) {
-    const bool has_budget = timing_.has_budget(now);
+    const bool has_budget = timing_.has_budget(governor_.rendering_budget(), now);
     return has_budget || !transport().is_moving() || is_input_waiting_for_rendering();
 }
 

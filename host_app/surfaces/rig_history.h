@@ -83,6 +83,8 @@ class RigHistory {
         double rest_s = 0;  ///< time before a new refinement can gain anything
         double made_s = 0;  ///< on the preparer's clock
         int made = 0;       ///< learnt_instants() by then
+        /// steady_depth() and colour() by then.
+        std::shared_ptr<const DrawnTexture> learnt_m = nullptr, colour = nullptr;
     };
     /// Nothing before the first refinement.
     const std::optional<Model>& model() const { return model_; }

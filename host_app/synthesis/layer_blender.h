@@ -34,6 +34,7 @@ class LayerBlender {
     const Texture& blend(const VirtualView& view, LayerPass& pass);
 
     void note_origins(bool noted) { notes_origins_ = noted; }
+    bool notes_origins() const { return notes_origins_; }
     const PixelOrigins* origins() const { return origins_ ? &*origins_ : nullptr; }
     /// The depth of the last image, as ViewRenderer::depth_m(). Precondition: blend() was called.
     const Texture& depth_m() const { return blended_.depth_m(); }

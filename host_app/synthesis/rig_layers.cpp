@@ -17,27 +17,34 @@ double near_plane_m(std::span<const DrawnLayer> layers) {
     return typical_m > 0 ? 0.01 * typical_m : 0.01;
 }
 
-void RigLayers::draw(std::span<const DrawnLayer> layers, const VirtualView& target,
-                     std::size_t fine) {
-    std::size_t drawn = 0;
-    draw(layers, target,
-         [&](const RigSurface& surface, double near_m, const Framebuffer& depth_only) {
-             const bool is_fine = drawn++ < fine && surface.has_fine_grid();
-             rasteriser_.draw_depth(surface, target, near_m, depth_only,
-                                    is_fine ? QuadGrid::fine : QuadGrid::coarse);
-         });
-}
-
-void RigLayers::draw(std::span<const DrawnLayer> layers, const VirtualView& target,
-                     const Drawing& drawing) {
+void RigLayers::begin(std::span<const DrawnLayer> layers, const VirtualView& target) {
     assert(layers.size() <= max_layers);
     used_.assign(layers.begin(), layers.end());
     target_ = target;
     near_m_ = near_plane_m(layers);
-    for (std::size_t i = 0; i < layers.size(); ++i) {
+    for (std::size_t i = 0; i < layers.size(); ++i)
         layers_[i].resize({target.width_px, target.height_px});
+}
+
+void RigLayers::draw_layer(std::size_t layer, QuadGrid grid) {
+    const RigSurface& surface = *used_[layer].surface;
+    const bool is_fine = grid == QuadGrid::fine && surface.has_fine_grid();
+    rasteriser_.draw_depth(surface, target_, near_m_, layers_[layer].target(),
+                           is_fine ? QuadGrid::fine : QuadGrid::coarse);
+}
+
+void RigLayers::draw(std::span<const DrawnLayer> layers, const VirtualView& target,
+                     std::size_t fine) {
+    begin(layers, target);
+    for (std::size_t i = 0; i < layers.size(); ++i)
+        draw_layer(i, i < fine ? QuadGrid::fine : QuadGrid::coarse);
+}
+
+void RigLayers::draw(std::span<const DrawnLayer> layers, const VirtualView& target,
+                     const Drawing& drawing) {
+    begin(layers, target);
+    for (std::size_t i = 0; i < layers.size(); ++i)
         drawing(*layers[i].surface, near_m_, layers_[i].target());
-    }
 }
 
 void RigLayers::bind(Program& program) const {

@@ -40,6 +40,10 @@ class RigLayers {
     /// where there is no surface.
     using Drawing = std::function<void(const RigSurface& surface, double near_m,
                                        const Framebuffer& depth_only)>;
+    /// Begins a view of which draw_layer() draws the surfaces one by one. Preconditions as for
+    /// draw().
+    void begin(std::span<const DrawnLayer> layers, const VirtualView& target);
+    void draw_layer(std::size_t layer, QuadGrid grid);
     /// Draws the surfaces with `drawing` instead of their grids.
     void draw(std::span<const DrawnLayer> layers, const VirtualView& target,
               const Drawing& drawing);

@@ -7,6 +7,9 @@
 #ifndef PLAIN
 #define PLAIN 0  // 1: colours are no sharper than bilinear
 #endif
+#ifndef ALONE
+#define ALONE 0  // 1: without the background's picture: colours are premultiplied by alpha, and 0 where nothing stands
+#endif
 // The foreground's layers: colours are premultiplied by alpha, the share of a pixel; source_depth is negative outside the
 // matte.
 #include "rig_layers.glsl"
@@ -15,9 +18,11 @@
 #include "sharp_sample.glsl"
 #endif
 
-uniform sampler2D picture;    // the background's
+#if !ALONE
+uniform sampler2D picture;           // the background's
+#endif
 uniform sampler2D background_depth;  // of the view, metres, 0 = nothing, negative = inpainted
-#if ORIGINS
+#if ORIGINS && !ALONE
 uniform sampler2D background_shares;
 #endif
 uniform float softness;       // relative depth within which two surfaces are one
@@ -81,11 +86,17 @@ void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout S
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     vec2 pixel = vec2(at);
-    shown = texelFetch(picture, at, 0);
     float set_z = abs(texelFetch(background_depth, at, 0).r);
+#if ALONE
+    shown = vec4(0.0);
+    shown_z = 0.0;
+    tell_origins(vec4(0.0));
+#else
+    shown = texelFetch(picture, at, 0);
     shown_z = set_z;
 #if ORIGINS
     tell_origins(texelFetch(background_shares, at, 0));
+#endif
 #endif
     float z[LAYERS];
 #define LOOK(i) z[i] = matted_layer_z(layer_depth[i], at);
@@ -104,7 +115,7 @@ void main() {
     float nearest = min(z[0], z[min(1, LAYERS - 1)]);
     bool are_first = true;
     for (int tries = 0; tries < LAYERS; ++tries) {
-        if (nearest == nothing && are_first && share == 0.0 && shown.a < 1.0) {
+        if (ALONE == 0 && nearest == nothing && are_first && share == 0.0 && shown.a < 1.0) {
             are_first = false;
 #define NEAREST(i) nearest = min(nearest, z[i]);
             FOR_LAYERS(NEAREST)
@@ -136,7 +147,11 @@ void main() {
     if (share == 0.0) return;
     vec3 c = best.sum / best.weight;
     bool is_most = share > 0.5;
+#if ALONE
+    shown = vec4(share * c, share);
+#else
     shown = vec4(mix(shown.rgb, c, share), is_most ? 1.0 : shown.a);
+#endif
     if (!is_most) return;
     shown_z = best_z;
     tell_origins(best.shares / best.weight);

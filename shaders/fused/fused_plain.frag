@@ -4,9 +4,20 @@
 #ifndef LAYERS
 #define LAYERS 2
 #endif
+#ifndef BAKED
+#define BAKED 0  // 1: on a baked background, which has the colours that no rig shows, and behind a foreground
+#endif
 #include "rig_layers.glsl"
 
 uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = inpainted
+#if BAKED
+uniform sampler2D baked_colour;      // alpha is below one half where the place was never seen
+uniform sampler2D foreground;        // premultiplied by alpha
+uniform sampler2D foreground_depth;  // metres, 0 = none
+#if ORIGINS
+uniform sampler2D foreground_shares;
+#endif
+#endif
 uniform float softness;         // relative depth within which two surfaces are one
 
 layout(location = 0) out vec4 fused;
@@ -25,7 +36,11 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec
     float tolerance = softness + spread[i] * q.z;
     float sure = 1.0 - smoothstep(1.0, 2.0, nearest / tolerance);
     if (sure <= 0.0) return;
-    vec4 seen = textureLod(picture, uv, detail_level(pixel_from_target[i], z, q.z));
+    float lod = detail_level(pixel_from_target[i], z, q.z);
+#if BAKED
+    lod = floor(lod + 0.5);  // a software rasteriser then reads one level instead of two
+#endif
+    vec4 seen = textureLod(picture, uv, lod);
     float away = apart(ray_from_pixel * vec3(pixel, 1.0) * z, centre[i]);
     float w = presence[i] * sure * (seen.a + 0.001) * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
     sum += w * seen.rgb;
@@ -34,12 +49,15 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec
     confidence = max(confidence, seen.a);
 }
 
-void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy);
+void show_background(ivec2 at) {
     float own = texelFetch(fused_depth, at, 0).r, z = abs(own);
     fused = vec4(0.0);
     fused_z = 0.0;
     tell_origins(vec4(0.0));
+#if BAKED
+    fused = texelFetch(baked_colour, at, 0);
+    fused_z = own;
+#endif
     if (z == 0.0) return;
     vec3 sum = vec3(0.0);
     vec4 shares = vec4(0.0);
@@ -50,4 +68,19 @@ void main() {
     fused = vec4(sum / weight, alpha_of(own > 0.0, confidence));
     fused_z = z;
     tell_origins(shares / weight);
+}
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    show_background(at);
+#if BAKED
+    vec4 before = texelFetch(foreground, at, 0);
+    fused.rgb = before.rgb + (1.0 - before.a) * fused.rgb;
+    if (before.a <= 0.5) return;
+    fused.a = 1.0;
+    fused_z = texelFetch(foreground_depth, at, 0).r;
+#if ORIGINS
+    tell_origins(texelFetch(foreground_shares, at, 0));
+#endif
+#endif
 }

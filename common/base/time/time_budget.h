@@ -23,6 +23,8 @@ class TimeBudget {
         left_ = std::clamp(left_ + more, -longest_carried_, longest_carried_);
         return left_.count() > 0;
     }
+    /// The share from the last has_some() on.
+    void set_share(double share) { share_ = share; }
     /// Charges the duration of work that was done.
     void spend(std::chrono::nanoseconds time) { left_ -= time; }
 

@@ -33,8 +33,11 @@ class RenderTiming {
     }
     /// Whether frames take so long that instants get too little time beside them.
     bool are_frames_long() const { return usual_ms() >= max_render_share * period_ms_; }
-    /// Whether the budget allows another frame beside the instants.
-    bool has_budget(MonotonicTime now) { return budget_.has_some(now); }
+    /// Whether the budget, a share of the time, allows another frame beside the instants.
+    bool has_budget(double share, MonotonicTime now) {
+        budget_.set_share(share);
+        return budget_.has_some(now);
+    }
 
     /// Time before a tick at which work that takes up to `longest_ms` is to be started.
     std::chrono::nanoseconds lead_of(double longest_ms) const {
@@ -55,8 +58,8 @@ class RenderTiming {
     /// Reserve on the longest of them.
     static constexpr double lead_ratio = 1.3, lead_margin_ms = 3;
     /// Largest share of a tick for a frame that leaves instants enough time.
-    static constexpr double max_render_share = 0.5;
-    /// Largest share of the time for frames while instants have to be prepared as well.
+    static constexpr double max_render_share = 0.75;
+    /// Share of the time for frames before the first call of has_budget().
     static constexpr double budget_share = 0.75;
     static constexpr std::chrono::milliseconds max_carried_budget{200};
 

@@ -32,7 +32,7 @@ foreach(rule ${rules})
 endforeach()
 # The floors of host_app, lowest first; rooms that share a line of '+' share a floor. The desk's feed is fed by the session.
 set(floors
-  frames replay flight ltc views surfaces background refine foreground pipeline synthesis points+fused+gallery output sound
+  frames replay flight ltc views surfaces background refine foreground pipeline baked synthesis points+fused+gallery output sound
   control camera_paths takes view_sets programme exports desk session+desk/feed+metrics+web setup relay commands)
 set(floor_count 0)
 foreach(floor ${floors})

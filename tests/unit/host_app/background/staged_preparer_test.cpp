@@ -1,6 +1,8 @@
 #include "host_app/fused/staged_preparer.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -280,13 +282,32 @@ TEST_F(StagedPreparerTest, LearnsRigsThatAreNotShownInTurnAtTheCheapestLevel) {
     const VirtualView target{staged_width_px, staged_height_px, views[0].K,
                              views[0].world_from_camera};
     const PrepareLevel one_rig{3, 1, false, false};
-    preparer_.cut();
-    const auto learnt = [&] { return preparer_.background_access()->learnt().rigs.size(); };
-    for (std::size_t known = 1; known <= views.size(); ++known) {
+    // The certainty of the wall grows with every instant that is learnt.
+    const auto certainties = [&] {
+        std::vector<double> all;
+        for (const RigBackground& rig : preparer_.background_access()->learnt().rigs)
+            all.push_back(cv::mean(rig.certainty)[0]);
+        return all;
+    };
+    const auto take = [&] {
         preparer_.take(views, 0.2);
         (void)preparer_.prepare(target, one_rig);
-        EXPECT_EQ(learnt(), known);
+    };
+    take();
+    EXPECT_EQ(certainties().size(), views.size()) << "all are learnt until they are known";
+    constexpr int known = 5;
+    for (int i = 1; i < known; ++i) take();
+    const std::vector<double> at_first = certainties();
+    for (std::size_t i = 0; i + 1 < views.size(); ++i) {
+        const std::vector<double> before = certainties();
+        take();
+        const std::vector<double> after = certainties();
+        EXPECT_FALSE(std::equal(before.begin(), before.end(), after.begin(), std::less<>()))
+            << "not all of them at once";
     }
+    const std::vector<double> at_last = certainties();
+    EXPECT_TRUE(std::equal(at_first.begin(), at_first.end(), at_last.begin(), std::less<>()))
+        << "each one in its turn";
 }
 
 class RefinedBackgroundTest : public StagedPreparerTest {

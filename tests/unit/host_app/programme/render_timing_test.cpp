@@ -39,8 +39,14 @@ TEST(RenderTiming, LeavesFramesLongerThanATickToReprojection) {
 
 TEST(RenderTiming, SpendsItsBudgetAndEarnsItBack) {
     RenderTiming timing = timing_of(1, 40);
-    EXPECT_FALSE(timing.has_budget(MonotonicTime{1h} + 40ms)) << "30 of 40 ms are available";
-    EXPECT_TRUE(timing.has_budget(MonotonicTime{1h} + 60ms));
+    EXPECT_FALSE(timing.has_budget(0.75, MonotonicTime{1h} + 40ms)) << "30 of 40 ms are available";
+    EXPECT_TRUE(timing.has_budget(0.75, MonotonicTime{1h} + 60ms));
+}
+
+TEST(RenderTiming, EarnsASmallerBudgetMoreSlowly) {
+    RenderTiming timing = timing_of(1, 40);
+    EXPECT_FALSE(timing.has_budget(0.25, MonotonicTime{1h} + 60ms)) << "15 of 40 ms are available";
+    EXPECT_TRUE(timing.has_budget(0.25, MonotonicTime{1h} + 200ms));
 }
 
 }  // namespace

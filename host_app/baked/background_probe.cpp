@@ -1,0 +1,95 @@
+#include "host_app/baked/background_probe.h"
+
+#include <algorithm>
+
+#include <opencv2/calib3d.hpp>
+
+namespace vantage {
+namespace {
+
+/// Parallax by which a tile may be wrong in the views that a probe is for.
+constexpr double tile_error_px = 0.6;
+/// Pixels of a probe for each cell of its backdrop.
+constexpr int backdrop_cell_px = 16;
+/// Pixels of the largest speckle, and the step of parallax around it, in sixteenths of a pixel.
+constexpr int largest_speckle_px = 24, speckle_step = 16;
+
+DepthImage inverse_of(const DepthImage& depth_m) {
+    DepthImage inverse(depth_m.size(), 0.0f);
+    for (int y = 0; y < depth_m.rows; ++y)
+        for (int x = 0; x < depth_m.cols; ++x)
+            if (depth_m(y, x) > 0) inverse(y, x) = 1 / depth_m(y, x);
+    return inverse;
+}
+
+BackgroundProbe::Part part_of(std::size_t first, std::size_t tiles, const ColourImage& colour,
+                              const DepthImage& inverse, float cell_px, bool is_guessed) {
+    BackgroundProbe::Part part{
+        first,
+        tiles,
+        Texture(TextureFormat::rgba8, colour.cols, colour.rows, Filter::linear),
+        Texture(TextureFormat::r32f, inverse.cols, inverse.rows),
+        cell_px,
+        is_guessed};
+    part.colour.upload(colour);
+    part.inverse_depth.upload(inverse);
+    return part;
+}
+
+Buffer vertices_of(const ProbeTiles& probe) { return Buffer::of(std::span(probe.tiles)); }
+
+Buffer indices_of(const ProbeTiles& probe) {
+    std::vector<std::uint32_t> indices;
+    indices.reserve(6 * probe.tiles.size());
+    for (std::size_t i = 0; i < probe.tiles.size(); ++i)
+        for (const unsigned k : {0U, 2U, 1U, 1U, 2U, 3U})
+            indices.push_back(4 * static_cast<std::uint32_t>(i) + k);
+    return Buffer::of(std::span<const std::uint32_t>(indices));
+}
+
+/// Returns the distances of the places that have a colour, without speckles: small islands at
+/// another depth than all around are errors, and would be tiles of their own.
+DepthImage without_speckles(const ColourImage& colour, const DepthImage& depth_m,
+                            double parallax_px_m) {
+    DepthImage kept_m = cv::abs(depth_m);
+    // In steps of a sixteenth of a pixel of parallax; 0 is no depth.
+    cv::Mat1s parallax(kept_m.size(), std::int16_t{0});
+    for (int y = 0; y < kept_m.rows; ++y)
+        for (int x = 0; x < kept_m.cols; ++x)
+            if (kept_m(y, x) > 0 && colour(y, x)[3] > 0)
+                parallax(y, x) = cv::saturate_cast<std::int16_t>(
+                    std::max(1.0, 16 * parallax_px_m / kept_m(y, x)));
+    cv::filterSpeckles(parallax, 0, largest_speckle_px, speckle_step);
+    kept_m.setTo(0, parallax == 0);
+    return kept_m;
+}
+
+}  // namespace
+
+ProbeTiles probe_tiles(const VirtualView& view, const ColourImage& colour,
+                       const DepthImage& depth_m, double parallax_px_m) {
+    const DepthImage distance_m = without_speckles(colour, depth_m, parallax_px_m);
+    ProbeTiles probe{
+        .view = view,
+        .tiles = planar_tiles(distance_m,
+                              static_cast<float>(tile_error_px / std::max(parallax_px_m, 1e-3))),
+        .inverse_depth = inverse_of(distance_m),
+        .colour = colour,
+        .backdrop = backdrop_colours(colour, distance_m, backdrop_cell_px)};
+    probe.surface_tiles = probe.tiles.size();
+    const std::vector<DepthTile> backdrop = backdrop_tiles(distance_m, backdrop_cell_px);
+    probe.tiles.insert(probe.tiles.end(), backdrop.begin(), backdrop.end());
+    // A view of nothing has one tile that is never drawn: buffers are never empty.
+    if (probe.tiles.empty()) probe.tiles.emplace_back();
+    return probe;
+}
+
+BackgroundProbe::BackgroundProbe(const ProbeTiles& tiles)
+    : view_(tiles.view),
+      surfaces_(part_of(0, tiles.surface_tiles, tiles.colour, tiles.inverse_depth, 1, false)),
+      backdrop_(part_of(tiles.surface_tiles, tiles.tiles.size() - tiles.surface_tiles,
+                        tiles.backdrop, DepthImage(1, 1, 1.0f), backdrop_cell_px, true)),
+      vertices_(vertices_of(tiles)),
+      indices_(indices_of(tiles)) {}
+
+}  // namespace vantage

@@ -1,0 +1,82 @@
+#include "host_app/baked/baked_painter.h"
+
+#include <algorithm>
+
+#include "host_app/baked/probe_placement.h"
+#include "host_app/views/projection.h"
+
+namespace vantage {
+namespace {
+
+/// The share of the depth by which each further probe is moved away, so that the nearest probe's
+/// surfaces hide the same surfaces of the others.
+constexpr float further_probe_share = 0.01f;
+constexpr double nearest_plane_m = 0.05;
+
+}  // namespace
+
+BakedPainter::BakedPainter(const ShaderLibrary& library)
+    : program_(Program::render(library, "probe_tiles.vert", "probe_tiles.frag")) {}
+
+void BakedPainter::resize(cv::Size size) {
+    if (colour_ && colour_->size() == size) return;
+    target_.reset();
+    colour_.emplace(TextureFormat::rgba8, size.width, size.height, Filter::linear);
+    depth_m_.emplace(TextureFormat::r32f, size.width, size.height);
+    depth_test_.emplace(TextureFormat::depth24, size.width, size.height);
+    target_.emplace(std::initializer_list<const Texture*>{&*colour_, &*depth_m_}, &*depth_test_);
+}
+
+void BakedPainter::draw(const BakedBackground& background, const VirtualView& view) {
+    resize({view.width_px, view.height_px});
+    std::vector<const BackgroundProbe*> nearest;
+    for (const auto& probe : background.probes) nearest.push_back(probe.get());
+    std::sort(nearest.begin(), nearest.end(), [&](const auto* a, const auto* b) {
+        return way_m(a->view(), view) < way_m(b->view(), view);
+    });
+    if (nearest.size() > most_probes) nearest.resize(most_probes);
+    target_->bind();
+    const float nothing[4] = {0, 0, 0, 0};
+    glDepthMask(GL_TRUE);
+    glClearBufferfv(GL_COLOR, 0, nothing);
+    glClearBufferfv(GL_COLOR, 1, nothing);
+    glClearDepthf(1.0f);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_BLEND);
+    program_.use();
+    vertices_.bind();
+    float nearer = 1;
+    for (const BackgroundProbe* probe : nearest) {
+        draw(*probe, probe->surfaces(), view, nearer);
+        nearer *= 1 - further_probe_share;
+    }
+    // What no probe has seen shows the nearest probe's backdrop.
+    if (!nearest.empty()) draw(*nearest.front(), nearest.front()->backdrop(), view, 1);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void BakedPainter::draw(const BackgroundProbe& probe, const BackgroundProbe::Part& part,
+                        const VirtualView& view, float nearer) {
+    if (part.tiles == 0) return;
+    program_.set(
+        "clip_from_pixel",
+        Eigen::Matrix4f((clip_from_target(view, nearest_plane_m) *
+                         target_from_pixel(view, probe.view().world_from_camera, probe.view().K))
+                            .cast<float>()));
+    probe.vertices().bind(GL_ARRAY_BUFFER);
+    probe.indices().bind(GL_ELEMENT_ARRAY_BUFFER);
+    glEnableVertexAttribArray(0);
+    glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(TileCorner), nullptr);
+    program_.input("colour", part.colour);
+    program_.input("inverse_depth", part.inverse_depth);
+    program_.set("colour_cell_px", part.cell_px);
+    program_.set("is_guessed", part.is_guessed ? 1 : 0);
+    program_.set("nearer", nearer);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(6 * part.tiles), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(6 * part.first_tile * sizeof(std::uint32_t)));
+}
+
+}  // namespace vantage
