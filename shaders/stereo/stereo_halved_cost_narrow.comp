@@ -36,12 +36,13 @@ uvec4 right_at(int row, int column) {
 
 // Disparity j of four for both pixels; the byte that it goes to belongs to perm_common.glsl. The words at twice the
 // disparity and one beyond it belong to j; the cost of the word one short of it comes from the step before.
+#define BYTE(cost, at) (((cost) >> (26 - (at))) & (31u << (at)))
 #define STEP(j, byte_at, even_a, odd_a, even_b, odd_b)                                                                \
-    {                                                                                                        \
-        uint next_a = cost_of(a, odd_a), next_b = cost_of(b, odd_b);                                         \
-        sum[(j) / 2] |= min(min(previous_a, cost_of(a, even_a)), next_a) << (byte_at + 16 * ((j) & 1));      \
-        sum[2 + (j) / 2] |= min(min(previous_b, cost_of(b, even_b)), next_b) << (byte_at + 16 * ((j) & 1));  \
-        previous_a = next_a, previous_b = next_b;                                                            \
+    {                                                                                                                \
+        uint next_a = upper_cost_of(a, odd_a), next_b = upper_cost_of(b, odd_b);                                     \
+        sum[(j) / 2] += BYTE(min(min(previous_a, upper_cost_of(a, even_a)), next_a), byte_at + 16 * ((j) & 1));      \
+        sum[2 + (j) / 2] += BYTE(min(min(previous_b, upper_cost_of(b, even_b)), next_b), byte_at + 16 * ((j) & 1));  \
+        previous_a = next_a, previous_b = next_b;                                                                    \
     }
 
 uvec4 block;  // the last one that was read of the right-hand row
@@ -62,7 +63,7 @@ void main() {
     int first_y = first_row + int(gl_WorkGroupID.x) * LANES, lane = int(gl_LocalInvocationID.x);
     int first_column = int(gl_WorkGroupID.y) * 4 * STEPS, slab = int(gl_WorkGroupID.z), part = lane & 1;
     // There is no disparity -1.
-    uint before_first = slab + part == 0 ? 31u : 0u;
+    uint before_first = slab + part == 0 ? 31u << 26 : 0u;
     int end_row = min(first_y + LANES, size.y), end = min(first_column + 4 * STEPS, size.x);
     int last = fine_stride - 1, shift = 32 * slab + 16 * part;
     for (int y = first_y; y < end_row; ++y) {
@@ -79,7 +80,7 @@ void main() {
             // to 7.
             block = right_at(row, column + 4);
             uvec4 sum = uvec4(0u), w = next_four(row, column), v = next_four(row, column - 4);
-            uint previous_a = max(cost_of(a, v.z), before_first), previous_b = max(cost_of(b, w.x), before_first);
+            uint previous_a = max(upper_cost_of(a, v.z), before_first), previous_b = max(upper_cost_of(b, w.x), before_first);
             STEP(0, 0, v.y, v.x, v.w, v.z)
             w = v, v = next_four(row, column - 8);
             STEP(1, 0, v.w, v.z, w.y, w.x)

@@ -136,7 +136,7 @@ def work(program, shape, groups):
         'perm_weight': (up(coarse if along else h, LANES), [h, h] if along else [coarse, coarse]),
         'perm_rows': (groups[0], [coarse, coarse]),
         'perm_columns': (groups[0], [up(h, 4)] * 2),
-        'perm_columns_narrow': (groups[0], [up(h, 8), up(h, 4)]),
+        'perm_columns_narrow': (groups[0], [up(h, 4)] * 2),
         'sgm_path': (groups[0], [h, h] if along else [w, w]),
         'sgm_path_narrow': (groups[0], [slabs, h if along else w, slabs] * 2),
         'left_right_check': (up(h, LANES), [coarse] * 3),
