@@ -10,10 +10,10 @@ namespace {
 constexpr GpuFrameModel models[] = {
     {"Raspberry Pi 5",
      "V3D 7.1",
-     {{"quality", 57.0, 3.806}, {"balanced", 35.4, 0.931}, {"fast", 29.2, 0.520}}},
+     {{"quality", 50.1, 2.190}, {"balanced", 35.2, 0.713}, {"fast", 28.6, 0.523}}},
     {"Raspberry Pi 4",
      "V3D 4.2",
-     {{"quality", 135.6, 7.630}, {"balanced", 85.3, 2.142}, {"fast", 76.3, 1.207}}},
+     {{"quality", 113.5, 5.079}, {"balanced", 85.7, 1.854}, {"fast", 75.2, 1.231}}},
 };
 
 }  // namespace

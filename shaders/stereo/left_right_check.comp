@@ -1,7 +1,7 @@
-// Left-right check and sub-pixel position. An invocation walks a row three times, four pixels a step: every right pixel
-// has no claim yet; it keeps the best of the left pixels that claim it, cost (normalised) << 16 | disparity; then a
-// left pixel whose claim lost to a disparity more than one off is unknown. Leaves disparity in 1/32 px (0 = unknown)
-// and, in the upper half of the word, a confidence of 0..255: how sharply the costs rise beside the minimum.
+// Left-right check and sub-pixel position. An invocation walks a row twice, four pixels a step. A right pixel keeps the
+// best of the left pixels that claim it, cost (normalised) << 16 | disparity. Then a left pixel whose claim lost to a
+// disparity more than one off is unknown. Leaves disparity in 1/32 px (0 = unknown) and, in the upper half of the word, a
+// confidence of 0..255: how sharply the costs rise beside the minimum.
 #include "stereo_common.glsl"
 
 // Whether costs must be divided by a weight before those of different pixels are compared.
@@ -72,8 +72,8 @@ void main() {
     int y = int(gl_GlobalInvocationID.x);
     if (y >= size.y) return;
     int row = y * stride;
-    for (int x = 0; x < size.x; x += 4) claims[(row + x) >> 2] = uvec4(0xffffffffu);
     for (int x = 0; x < size.x; x += 4) {
+        claims[(row + x) >> 2] = uvec4(0xffffffffu);  // no pixel further left claims these
         int at = block_at(x, y, size.y) >> 1;
         uvec4 a = winners[at], b = winners[at + 1];
         vec4 by = WEIGHTS((row + x) >> 2);

@@ -27,16 +27,18 @@ uint narrow_way(uint a, uint b, uint most) {
     uint left = a & upper, right = b & upper;
     return min(min(left - right, right - left), most << 27);
 }
-uint cost_of(uint left, uint right) {
+// The cost in the upper six bits. The lower 26 are to be ignored: of two such words the lesser one has the lesser cost.
+uint upper_cost_of(uint left, uint right) {
     uint bits = left ^ right;
-    uint pairs = bits - ((bits >> 1) & 0x5555u);
-    uint nibbles = (pairs & 0x13333u) + ((pairs >> 2) & 0x3333u);
-    uint bytes = (nibbles + (nibbles >> 4)) & 0x10f0fu;
-    uint census = min((bytes * 0x040404u) << 8, (10u << 26) - 1u);  // its lower 26 bits are to be ignored
+    // Groups of three bits, then of six. Bits 17 and above are none of the census.
+    uint threes = bits - ((bits >> 1) & 0xb6dbu) - ((bits >> 2) & 0x1249u);
+    uint sixes = (threes & 0x71c7u) + ((threes >> 3) & 0x31c7u);
+    uint census = min(sixes * (0x1041u << 14), (10u << 26) - 1u);
     uint ways = narrow_way(left, right, 3u) + narrow_way(left << 10, right << 10, 4u) +
                 narrow_way(left << 5, right << 5, 4u);
-    return (census + ways) >> 26;
+    return census + ways;
 }
+uint cost_of(uint left, uint right) { return upper_cost_of(left, right) >> 26; }
 #else
 // Truncated census distance plus truncated differences of both gradients and of colour, 0..31.
 uint cost_of(uint left, uint right) {

@@ -26,7 +26,8 @@
 
 layout(local_size_x = LANES) in;
 #if GIVEN
-layout(std430, binding = 0) readonly buffer Costs { SUMS costs[]; };
+// Without `readonly`, or else the compiler would read where a cost is needed and not where it is written.
+layout(std430, binding = 0) buffer Costs { SUMS costs[]; };
 uniform int plane;  // pixels of a slab of costs
 #else
 layout(std430, binding = 0) readonly buffer LeftFeatures { uvec4 left_features[]; };
@@ -98,6 +99,14 @@ uvec4 a, b, back_a, back_b;
     back_b = permeate(back_b + own_b, m);
 #endif
 
+// Always true. Where lanes are short of registers, a condition ends a block of code that the compiler puts into an order of
+// its own: what is read before it is read together, and one wait is for all of it.
+#if SPARSE_MARKS
+#define THEN if (plane > 0)
+#else
+#define THEN
+#endif
+
 void main() {
 #if LANE_MAPPING == LANES_DISPARITIES
     int y = int(gl_GlobalInvocationID.x >> 1), half_slab = int(gl_GlobalInvocationID.x & 1u);
@@ -126,15 +135,17 @@ void main() {
 #endif
         LEFT_WORDS
         uvec4 m = permeabilities(row + x);
+        THEN {
 #if SPARSE_MARKS
-        if ((x & 4) == 0) marks[MARK_AT(x)] = a;
+            if ((x & 4) == 0) marks[MARK_AT(x)] = a;
 #else
-        marks[MARK_AT(x)] = a;
+            marks[MARK_AT(x)] = a;
 #endif
 #if PARTS == 2
-        marks[MARK_AT(x) + 1] = b;
+            marks[MARK_AT(x) + 1] = b;
 #endif
-        FORTH(0, l0, m.x) FORTH(1, l1, m.y) FORTH(2, l2, m.z) FORTH(3, l3, m.w)
+            FORTH(0, l0, m.x) FORTH(1, l1, m.y) FORTH(2, l2, m.z) FORTH(3, l3, m.w)
+        }
     }
 
     // The words slide the other way.
@@ -146,7 +157,7 @@ void main() {
             x -= 4;
             LEFT_WORDS
             uvec4 m = permeabilities(row + x);
-            FORTH(0, l0, m.x) FORTH(1, l1, m.y) FORTH(2, l2, m.z) FORTH(3, l3, m.w)
+            THEN { FORTH(0, l0, m.x) FORTH(1, l1, m.y) FORTH(2, l2, m.z) FORTH(3, l3, m.w) }
             x += 4;
         }
 #endif

@@ -66,31 +66,37 @@ void main() {
 #else
 layout(std430, binding = 0) readonly buffer Permeability { uvec4 permeability[]; };  // a byte each of four rows
 
-// Four columns an invocation.
+// Four columns an invocation; on the way down four rows a step, whose words are read together. A row below the picture is the
+// last one once more.
 void main() {
-    int x = int(gl_GlobalInvocationID.x), step = stride / 4;
+    int x = int(gl_GlobalInvocationID.x), step = stride / 4, last = size.y - 1;
     if (x * 4 >= size.x) return;
+#define AT(row) (clamp(row, 0, last) * step + x)
+#define MU(k) ((four >> (8 * (k))) & 255u)
     uvec4 a = uvec4(0u);
-    uvec4 four = uvec4(0u);
-    for (int y = 0, at = x; y < size.y; ++y, at += step) {
-        if ((y & 3) == 0) four = permeability[(y >> 2) * step + x];
-        a = weights_at(at) + ((a * (four & 255u)) >> 4);
-        four >>= 8;
-        leave(at, a);
+    for (int y = 0; y <= last; y += 4) {
+        uvec4 four = permeability[(y >> 2) * step + x];
+        uvec4 w0 = weights_at(AT(y)), w1 = weights_at(AT(y + 1)), w2 = weights_at(AT(y + 2)), w3 = weights_at(AT(y + 3));
+        w0 += (a * MU(0)) >> 4;
+        w1 = y + 1 <= last ? w1 + ((w0 * MU(1)) >> 4) : w0;
+        w2 = y + 2 <= last ? w2 + ((w1 * MU(2)) >> 4) : w1;
+        a = y + 3 <= last ? w3 + ((w2 * MU(3)) >> 4) : w2;
+        leave(AT(y), w0);
+        leave(AT(y + 1), w1);
+        leave(AT(y + 2), w2);
+        leave(AT(y + 3), a);
     }
     uvec4 back = uvec4(0u);
-    for (int y = size.y - 1; y >= 0; --y) {
-        int at = y * step + x;
-        if (y == size.y - 1 || (y & 3) == 3) four = permeability[(y >> 2) * step + x];
-        uvec4 mu = (four >> (8 * (y & 3))) & 255u, above = weights_at(max(at - step, 0));
+    for (int y = last; y >= 0; --y) {
+        uvec4 mu = (permeability[(y >> 2) * step + x] >> (8 * (y & 3))) & 255u, above = weights_at(AT(y - 1));
 #if MOST
         ivec4 sum = ivec4(a + back);
         ivec4 shift = ivec4(greaterThanEqual(sum, ivec4(256))) + ivec4(greaterThanEqual(sum, ivec4(512))) +
                       ivec4(greaterThanEqual(sum, ivec4(1024))) + ivec4(greaterThanEqual(sum, ivec4(2048)));
         vec4 factor = float(MOST) * 256.0 * vec4(ivec4(1) << shift) / vec4(max(sum, ivec4(1)));
-        leave(at, uvec4(shift << 13) | uvec4(ivec4(factor)));
+        leave(AT(y), uvec4(shift << 13) | uvec4(ivec4(factor)));
 #else
-        leave(at, a + back);
+        leave(AT(y), a + back);
 #endif
         back = ((back + a - ((above * mu) >> 4)) * mu) >> 4;
         a = above;

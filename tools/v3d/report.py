@@ -133,13 +133,13 @@ def work(program, shape, groups):
                                       [LANES, up(4 * steps, LANES)]),
         'perm_cost': (prod(groups), []),
         'sgm_cost': (up(fine, LANES) * H * groups[2], []),
-        'perm_weight': (up(coarse if along else h, LANES), [h, h] if along else [coarse, coarse]),
+        'perm_weight': (up(coarse if along else h, LANES), [up(h, 4), h] if along else [coarse, coarse]),
         'perm_rows': (groups[0], [coarse, coarse]),
         'perm_columns': (groups[0], [up(h, 4)] * 2),
-        'perm_columns_narrow': (groups[0], [up(h, 8), up(h, 4)]),
+        'perm_columns_narrow': (groups[0], [up(h, 4)] * 2),
         'sgm_path': (groups[0], [h, h] if along else [w, w]),
         'sgm_path_narrow': (groups[0], [slabs, h if along else w, slabs] * 2),
-        'left_right_check': (up(h, LANES), [coarse] * 3),
+        'left_right_check': (up(h, LANES), [coarse] * 2),
         'supported_disparity': (up(coarse, LANES) * up(h, 8), [8]),
         'supported_disparity_narrow': (up(coarse, LANES) * up(h, 8), [8, 5]),
         'row_fill': (up(h, LANES), [coarse, 0, coarse]),
@@ -189,7 +189,16 @@ def dynamic(program, trips, shape):
         at, target = max(jumps, key=lambda jump: jump[1] - jump[0])
         for rare in range(at + 4, target):
             weight[rare] = 0
-    return sum(weight), sum(w for w, text in zip(weight, code) if 'thrsw' in text)
+    return sum(weight), sum(weight[at] for at in waits(code))
+
+
+def waits(code):
+    """Thread switches behind which a result of the TMU is taken. The last switch of a program is signalled twice, and its end
+    once more; nothing is waited for there."""
+    switches = [at for at, text in enumerate(code) if 'thrsw' in text]
+    for at, after in zip(switches, switches[1:] + [len(code) - 1]):
+        if any('ldtmu' in text or 'tmuwt' in text for text in code[at + 1:after + 1]):
+            yield at
 
 
 PASS = {

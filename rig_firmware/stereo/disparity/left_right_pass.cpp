@@ -21,8 +21,9 @@ LeftRightPass::LeftRightPass(const ShaderLibrary& library, const StereoLayout& l
 
 void LeftRightPass::run(PassProfiler& profiler, const Buffer& winners, const Buffer* weight) {
     const std::size_t pixels = layout_.pixels();
-    // Winners are read twice; claims are cleared, staked and read.
-    const std::size_t bytes_per_pixel = weight ? 40 : 36;
+    // Winners are read twice. Claims are cleared and staked within a search range, which stays in
+    // the cache; later they are read.
+    const std::size_t bytes_per_pixel = weight ? 32 : 28;
     profiler.run("left-right check", {pixels * bytes_per_pixel, static_cast<double>(pixels) * 188},
                  [&] {
                      Program& program = weight ? weighted_ : unweighted_;

@@ -17,7 +17,7 @@ SupportPass::SupportPass(const ShaderLibrary& library, const StereoLayout& layou
 
 void SupportPass::run(PassProfiler& profiler, const Buffer& disparity, const Buffer& supported) {
     const std::size_t pixels = layout_.pixels();
-    profiler.run("support", {pixels * 28, static_cast<double>(pixels) * 335}, [&] {
+    profiler.run("support", {pixels * 8, static_cast<double>(pixels) * 186}, [&] {
         disparity.bind_storage(0);
         supported.bind_storage(1);
         four_by_eight::run(program_, layout_);

@@ -35,7 +35,7 @@ void HalvedCostPass::run(PassProfiler& profiler, const FeaturePass& fine_feature
     const std::size_t slab_pixels = coarse.pixels() * static_cast<std::size_t>(slabs);
     const int samples = samples_ == HalvedCostSamples::two ? 2 : 1;
     const double operations =
-        static_cast<double>(slab_pixels) * slab_disparities * (samples == 2 ? 153 : 65);
+        static_cast<double>(slab_pixels) * slab_disparities * (samples == 2 ? 130 : 61);
     // A second run reads the costs of the first.
     const std::size_t bytes = runs_ == 2 ? 136 : 60;
     profiler.run("cost", {slab_pixels * bytes, operations}, [&] {

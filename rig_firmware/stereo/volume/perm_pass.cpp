@@ -122,7 +122,7 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass* features,
     const std::size_t row_bytes = features ? 50 : has_sparse_marks ? 58 : 66;
     const std::size_t column_bytes = has_narrow_columns(kind_, lanes_) ? 60 : 68;
     for (int first = 0; first < disparities_; first += slab_disparities) {
-        profiler.run("cost and rows", {pixels * row_bytes, evaluations * (features ? 32 : 10)},
+        profiler.run("cost and rows", {pixels * row_bytes, evaluations * (features ? 32 : 15)},
                      [&] {
                          (features ? features->left_features() : output_).bind_storage(0);
                          if (features) features->right_features().bind_storage(1);
@@ -131,7 +131,7 @@ void PermPass::run(PassProfiler& profiler, const FeaturePass* features,
                          down_.bind_storage(4);
                          run_line_pass(rows_, row_lanes, first);
                      });
-        profiler.run("columns and winners", {pixels * column_bytes, evaluations * 15}, [&] {
+        profiler.run("columns and winners", {pixels * column_bytes, evaluations * 21}, [&] {
             permeability.down().bind_storage(0);
             volume_.bind_storage(1);
             down_.bind_storage(2);
