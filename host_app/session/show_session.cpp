@@ -23,7 +23,7 @@
 namespace vantage {
 void ShowSession::run(StopSignal& stop) {
     for (const std::string& url : options.outputs) {
-        if (is_freed_url(url)) show.add(make_freed_sink(url));
+        if (is_freed_url(url)) show.add(make_freed_sink(url, show.settings().rate_hz));
         if (is_opentrackio_url(url))
             show.add(
                 make_opentrackio_sink(url, show.settings().rate_hz, show.settings().pulse_rate_hz));

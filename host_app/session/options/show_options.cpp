@@ -53,7 +53,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
     }
     for (const std::string& url : outputs)
         if (is_freed_url(url))
-            (void)make_freed_sink(url);
+            (void)make_freed_sink(url, settings.rate_hz);
         else if (is_opentrackio_url(url))
             (void)make_opentrackio_sink(url, settings.rate_hz, settings.pulse_rate_hz);
         else
