@@ -7,9 +7,9 @@
 
 #include <hpdf.h>
 
-#include "calib_tools/board/charuco_finder.h"
-#include "calib_tools/board/marker_dictionary.h"
 #include "common/base/error.h"
+#include "common/board/charuco_finder.h"
+#include "common/board/marker_dictionary.h"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "calib_tools/board/board_pattern.h"
 #include "calib_tools/board/paper.h"
+#include "common/board/board_pattern.h"
 #include "common/image/image.h"
 
 namespace vantage {

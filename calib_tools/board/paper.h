@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "calib_tools/board/board_pattern.h"
+#include "common/board/board_pattern.h"
 
 namespace vantage {
 

@@ -7,8 +7,8 @@
 
 #include <Eigen/Core>
 
-#include "calib_tools/board/board_view.h"
 #include "calib_tools/bundle/lens_family.h"
+#include "common/board/board_view.h"
 #include "common/geometry/camera_model.h"
 #include "common/geometry/pose.h"
 

@@ -8,14 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "calib_tools/board/board_drawing.h"
-#include "calib_tools/board/board_file.h"
-#include "calib_tools/board/charuco_finder.h"
-#include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/board/paper.h"
 #include "common/base/cli/command.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/log.h"
+#include "common/board/board_file.h"
+#include "common/board/charuco_finder.h"
+#include "common/board/chessboard_finder.h"
 #include "common/image/image_file.h"
 
 namespace vantage {

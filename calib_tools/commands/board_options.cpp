@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "calib_tools/board/board_file.h"
 #include "common/base/error.h"
+#include "common/board/board_file.h"
 
 namespace vantage {
 

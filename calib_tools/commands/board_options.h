@@ -5,7 +5,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "calib_tools/board/calibration_boards.h"
+#include "common/board/calibration_boards.h"
 
 namespace vantage {
 

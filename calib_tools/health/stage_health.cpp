@@ -5,11 +5,11 @@
 
 #include <fmt/ranges.h>
 
-#include "calib_tools/board/median.h"
 #include "calib_tools/colour/cielab.h"
 #include "calib_tools/health/place_tracking.h"
 #include "calib_tools/rig/pair_solver.h"
 #include "common/base/error.h"
+#include "common/board/median.h"
 #include "common/image/image_file.h"
 
 namespace vantage {

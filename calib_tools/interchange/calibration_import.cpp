@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "calib_tools/board/median.h"
 #include "calib_tools/health/row_tracking.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
+#include "common/board/median.h"
 #include "common/geometry/pair_aim.h"
 #include "common/geometry/rectification_map.h"
 #include "common/image/image_file.h"

@@ -7,12 +7,12 @@
 #include <set>
 #include <string_view>
 
-#include "calib_tools/board/chessboard_finder.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
 #include "common/base/files/folder.h"
 #include "common/base/log.h"
 #include "common/base/time/time.h"
+#include "common/board/chessboard_finder.h"
 #include "common/image/image_file.h"
 
 namespace vantage {

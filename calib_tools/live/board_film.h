@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/calibration_boards.h"
 #include "calib_tools/live/live_rigs.h"
 #include "calib_tools/pictures/seen_picture.h"
 #include "common/base/error.h"
+#include "common/board/calibration_boards.h"
 
 namespace vantage {
 

@@ -9,9 +9,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "calib_tools/board/chessboard_finder.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/board/chessboard_finder.h"
 #include "common/image/image_file.h"
 
 namespace vantage {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/board_finder.h"
+#include "common/board/board_finder.h"
 
 namespace vantage {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "calib_tools/board/median.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/rig/guidance.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "calib_tools/board/median.h"
 #include "calib_tools/bundle/lens_projection.h"
 #include "common/base/error.h"
+#include "common/board/median.h"
 #include "common/geometry/opencv_bridge.h"
 
 namespace vantage {

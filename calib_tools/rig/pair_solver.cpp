@@ -5,7 +5,7 @@
 #include <limits>
 #include <map>
 
-#include "calib_tools/board/median.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

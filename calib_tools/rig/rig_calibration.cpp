@@ -7,12 +7,12 @@
 #include <numbers>
 #include <tuple>
 
-#include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/rig/doubts.h"
 #include "calib_tools/rig/guidance.h"
 #include "calib_tools/rig/view_rejection.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/board/chessboard_finder.h"
 
 namespace vantage {
 namespace {

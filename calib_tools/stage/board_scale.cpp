@@ -3,8 +3,8 @@
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 
-#include "calib_tools/board/median.h"
 #include "calib_tools/stage/stage_graph.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

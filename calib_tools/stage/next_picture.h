@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <optional>
 
-#include "calib_tools/board/board_pattern.h"
 #include "calib_tools/bundle/bundle.h"
+#include "common/board/board_pattern.h"
 
 namespace vantage {
 

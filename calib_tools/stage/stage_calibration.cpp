@@ -6,13 +6,13 @@
 #include <set>
 #include <utility>
 
-#include "calib_tools/board/chessboard_finder.h"
 #include "calib_tools/rig/view_rejection.h"
 #include "calib_tools/stage/board_scale.h"
 #include "calib_tools/stage/repeated_sightings.h"
 #include "calib_tools/stage/stage_graph.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
+#include "common/board/chessboard_finder.h"
 
 namespace vantage {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/calibration_boards.h"
 #include "calib_tools/rig/rig_calibration.h"
 #include "calib_tools/stage/next_picture.h"
+#include "common/board/calibration_boards.h"
 #include "common/config/calibration_file.h"
 
 namespace vantage {

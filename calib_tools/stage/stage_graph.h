@@ -4,8 +4,8 @@
 #include <tuple>
 #include <vector>
 
-#include "calib_tools/board/calibration_boards.h"
 #include "calib_tools/stage/stage_calibration.h"
+#include "common/board/calibration_boards.h"
 
 namespace vantage {
 

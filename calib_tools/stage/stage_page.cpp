@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "calib_tools/board/median.h"
 #include "calib_tools/report/calibration_page.h"
 #include "calib_tools/report/calibration_text.h"
 #include "calib_tools/stage/stage_report.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "calib_tools/board/median.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

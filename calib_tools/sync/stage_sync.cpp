@@ -4,10 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include "calib_tools/board/median.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
 #include "common/base/time/time.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

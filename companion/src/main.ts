@@ -218,6 +218,19 @@ export default class VantageInstance extends InstanceBase<VantageTypes> {
 			['play', 'Move', ''],
 			['reset', 'Start\nview', ''],
 		])
+		// A key that shows whether the programme may go on air, and does nothing.
+		presets['air_verdict'] = {
+			type: 'simple',
+			name: 'Air verdict',
+			style: { text: `Air\n$(${this.label}:verdict)`, size: 'auto', color: WHITE, bgcolor: RED },
+			steps: [{ down: [], up: [] }],
+			feedbacks: [{ feedbackId: 'ready', options: {}, style: { bgcolor: GREEN, color: WHITE } }],
+		}
+		structure.push({
+			id: 'air',
+			name: 'Air',
+			definitions: [{ id: 'air_keys', type: 'simple', name: 'Air', presets: ['air_verdict'] }],
+		})
 		this.setPresetDefinitions(structure, presets)
 	}
 }

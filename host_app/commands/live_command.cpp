@@ -57,9 +57,11 @@ void run_live_session(const LiveOptions& options) {
                         options.show.desk_store(options.stage),
                         &takes,
                         "",
-                        [&](StopSignal& signal) {
-                            return show.wait_for_rigs(from_s(options.wait_s), signal,
-                                                      options.while_waiting);
+                        [&](StopSignal& signal, const std::function<void()>& while_waiting) {
+                            return show.wait_for_rigs(from_s(options.wait_s), signal, [&] {
+                                while_waiting();
+                                if (options.while_waiting) options.while_waiting();
+                            });
                         }};
     session.run(stop);
 }

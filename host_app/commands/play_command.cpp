@@ -76,16 +76,17 @@ void play(const PlayOptions& options) {
                                             : nullptr);
     const std::unique_ptr<JogDevices> deck = options.show.make_deck();
     LiveShow show(settings, plan, feed_of(*take), deck.get());
-    ShowSession session{options.show,
-                        show,
-                        plan,
-                        deck.get(),
-                        flights,
-                        clips,
-                        options.show.desk_store(options.take),
-                        nullptr,
-                        options.take,
-                        [&](StopSignal& signal) { return show.wait_for_first_frame_set(signal); }};
+    ShowSession session{
+        options.show,
+        show,
+        plan,
+        deck.get(),
+        flights,
+        clips,
+        options.show.desk_store(options.take),
+        nullptr,
+        options.take,
+        [&](StopSignal& signal, const auto&) { return show.wait_for_first_frame_set(signal); }};
     session.run(stop);
 }
 

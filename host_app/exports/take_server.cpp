@@ -15,6 +15,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/unique_fd.h"
+#include "common/base/time/time.h"
 #include "common/base/time/timecode.h"
 #include "common/take/format/frame_storage.h"
 #include "host_app/takes/take_show.h"
@@ -129,6 +130,7 @@ class TakeServer {
 
   private:
     Answer frame_set(std::uint64_t pulse) {
+        const MonotonicTime start = MonotonicClock::now();
         std::vector<RigFrame> frames;
         Answer damaged = Answer::array();
         for (std::size_t rig = 0; rig < restorers_.size(); ++rig) {
@@ -148,10 +150,12 @@ class TakeServer {
         }
         if (frames.empty() && damaged.empty())
             fail("{} has no frame of pulse {}", take_.path().string(), pulse);
-        Answer json{{"pulse", pulse},
-                    {"timecode", codes_.of_pulse(pulse, take_.facts().tai_offset_s)},
-                    {"damaged", damaged},
-                    {"views", Answer::array()}};
+        Answer json{
+            {"pulse", pulse},
+            {"timecode", codes_.of_pulse(pulse, take_.facts().tai_offset_s)},
+            {"damaged", damaged},
+            {"decoding_s", std::chrono::duration<double>(MonotonicClock::now() - start).count()},
+            {"views", Answer::array()}};
         write(frames, json);
         return json;
     }

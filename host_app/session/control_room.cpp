@@ -18,8 +18,9 @@ ControlRoom::ControlRoom(const std::vector<std::string>& urls, LiveShow& show) {
 }
 
 void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
-                             const std::string& saved_background, MonotonicTime now) {
-    if (!ports_ && !keeps_lamps_) return;
+                             const AirVerdict* verdict, const std::string& saved_background,
+                             MonotonicTime now) {
+    if (!has_lamps()) return;
     const ProgrammeState state = show.state();
     const FlightControls::Lines lines = show.controls().lines();
     ShowLamps& lamps = shown_;
@@ -55,6 +56,9 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
     lamps.render_level = state.render_level();
     lamps.prepare_level = state.prepare_level();
     lamps.repeated_ticks = static_cast<double>(show.stats().repeated);
+    lamps.verdict = verdict ? key_of(verdict->level) : "";
+    lamps.fit_for_air = verdict && verdict->level == AirVerdict::Level::ready;
+    lamps.verdict_reason = verdict ? verdict->why : "";
     show_replay(state);
     lamps.film = false;
     const std::vector<OutputState> outputs = show.outputs().states();

@@ -7,6 +7,7 @@
 #include "common/take/take_recorder.h"
 #include "host_app/control/ports/control_ports.h"
 #include "host_app/output/frame_set_timecode.h"
+#include "host_app/session/air_watch.h"
 #include "host_app/session/live_show.h"
 
 namespace vantage {
@@ -18,11 +19,15 @@ class ControlRoom {
     /// Opens the ports. Throws Error as ControlPorts does. The show must outlive this object.
     ControlRoom(const std::vector<std::string>& urls, LiveShow& show);
 
-    /// Updates the lamps. Call it often. `take` is nothing if no take can be recorded.
+    /// Updates the lamps. Call it often. `take` is nothing if no take can be recorded, and
+    /// `verdict` is null before the first.
     void show_lamps(const LiveShow& show, const std::optional<TakeState>& take,
-                    const std::string& saved_background, MonotonicTime now);
+                    const AirVerdict* verdict, const std::string& saved_background,
+                    MonotonicTime now);
     /// Updates the lamps even without ports, for lamps().
     void keep_lamps() { keeps_lamps_ = true; }
+    /// Whether anything shows the lamps.
+    bool has_lamps() const { return ports_ || keeps_lamps_; }
     const ShowLamps& lamps() const { return shown_; }
     Tally::State tally() const { return tally_.state(); }
     LtcBoard::State ltc() const { return ltc_.state(); }

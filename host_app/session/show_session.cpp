@@ -23,7 +23,7 @@
 namespace vantage {
 void ShowSession::run(StopSignal& stop) {
     for (const std::string& url : options.outputs) {
-        if (is_freed_url(url)) show.add(make_freed_sink(url));
+        if (is_freed_url(url)) show.add(make_freed_sink(url, show.settings().rate_hz));
         if (is_opentrackio_url(url))
             show.add(
                 make_opentrackio_sink(url, show.settings().rate_hz, show.settings().pulse_rate_hz));
@@ -176,13 +176,20 @@ void ShowSession::follow_requests(OutputSwitch& outputs, BackgroundSaver& backgr
         if (std::holds_alternative<command::SaveBackground>(each)) backgrounds.save();
     }
     show_metrics(room, now);
+    const bool is_new = room.has_lamps() && air.follow(show, report_take(), now);
     room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt,
-                    backgrounds.state().path, now);
-    if (web) web->follow(show, report_take(), room.lamps(), now);
+                    air.seen() ? &air.seen()->verdict : nullptr, backgrounds.state().path, now);
+    if (web) web->follow(show, *air.seen(), is_new, report_take(), room.lamps());
 }
 
 void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, BackgroundSaver& backgrounds) {
-    if (!wait(stop)) return;
+    // The page names the rigs that are waited for.
+    const auto show_page = [&] {
+        const MonotonicTime now = MonotonicClock::now();
+        if (web && air.follow(show, report_take(), now))
+            web->follow(show, *air.seen(), true, report_take(), room.lamps());
+    };
+    if (!wait(stop, show_page)) return;
     // A take that cannot be written must fail before the first picture.
     while (takes && takes->state().phase == TakePhase::opening &&
            !stop.wait_for(std::chrono::milliseconds(20)))

@@ -28,12 +28,14 @@ struct ShowSession {
     std::optional<DeskStore> desk;  ///< nothing: no window
     TakeControl* takes;             ///< null: no take can be recorded
     std::string played;             ///< path of the take that is shown; empty: a live stage
-    /// Without a window: waits for the first instant. Returns false if the program is told to stop.
-    std::function<bool(StopSignal&)> wait;
+    /// Without a window: waits for the first instant, and calls `while_waiting` repeatedly. Returns
+    /// false if the program is told to stop.
+    std::function<bool(StopSignal&, const std::function<void()>& while_waiting)> wait;
     std::uint64_t told_notices = 0;  ///< replay notices in the log so far
     std::optional<MetricsServer> metrics = {};
     MonotonicTime metrics_shown{};
     std::optional<WebFeed> web = {};
+    AirWatch air = {};
     MonotonicTime followed{};  ///< the frame set in which a performer was tracked last
 
     /// Runs to the end and prints the summary. Throws Error if an output or the take has failed.

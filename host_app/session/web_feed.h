@@ -1,12 +1,11 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
-#include "common/base/time/rate_meter.h"
 #include "common/take/take_recorder.h"
 #include "host_app/control/table/lamp.h"
+#include "host_app/session/air_watch.h"
 #include "host_app/session/live_show.h"
 #include "host_app/web/web_server.h"
 
@@ -20,20 +19,18 @@ class WebFeed {
     /// Throws Error as WebServer does. `input` must outlive it.
     WebFeed(const std::string& url, OperatorInputBox& input);
 
-    /// `take` is nothing if none was recorded.
-    void follow(const LiveShow& show, const std::optional<TakeState>& take, const ShowLamps& lamps,
-                MonotonicTime now);
+    /// `seen` is the newest look of an AirWatch; `is_new` says that it is newer than at the last
+    /// call. `take` is nothing if none was recorded.
+    void follow(const LiveShow& show, const AirWatch::Seen& seen, bool is_new,
+                const std::optional<TakeState>& take, const ShowLamps& lamps);
 
   private:
-    std::string state_of(const LiveShow& show, const ProgrammeState& programme,
-                         const std::optional<TakeState>& take, const ShowLamps& lamps,
-                         MonotonicTime now);
+    std::string state_of(const AirWatch::Seen& seen, const std::optional<TakeState>& take,
+                         const ShowLamps& lamps) const;
 
     WebServer server_;
     bool has_control_;
-    std::map<std::string, MonotonicTime> rigs_seen_;  ///< last time in a frame set
-    RateMeter ticks_, repeats_;
-    std::optional<MonotonicTime> refreshed_;
+    std::string board_;  ///< the option board=
     std::string state_ = "{}";
 };
 

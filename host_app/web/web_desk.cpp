@@ -53,7 +53,9 @@ WebDesk::WebDesk(Settings settings, OperatorInputBox& input)
     : settings_(std::move(settings)),
       session_(fmt::format("{:016x}{:016x}", random_id(), random_id())),
       intake_(input),
-      attempts_(attempts_per_second, attempts_at_once) {}
+      attempts_(attempts_per_second, attempts_at_once) {
+    if (settings_.boards) boards_.emplace(*settings_.boards);
+}
 
 void WebDesk::show(WebShown shown) {
     // The old pictures are released after the lock.
@@ -99,10 +101,10 @@ WebAnswer WebDesk::answer_to(const WebRequest& request, MonotonicTime now) {
     if (!is_read) return refusal(405, "only GET");
     if (request.path == "/state") return {200, "application/json", shown().state, {}};
     if (request.path == "/programme.jpg") return picture("", now);
-    if (request.path == "/rig.jpg") {
-        const auto rig = request.query.find("rig");
-        return picture(rig == request.query.end() ? "" : rig->second, now);
-    }
+    const auto given = request.query.find("rig");
+    const std::string rig = given == request.query.end() ? "" : given->second;
+    if (request.path == "/rig.jpg") return picture(rig, now);
+    if (request.path == "/board") return board(rig);
     return refusal(404, "there is no such page");
 }
 
@@ -175,6 +177,15 @@ WebAnswer WebDesk::picture(const std::string& rig, MonotonicTime now) {
     if (!rig.empty())
         answer.headers.emplace_back("X-Sharpness", fmt::format("{:.1f}", kept->sharpness));
     return answer;
+}
+
+WebAnswer WebDesk::board(const std::string& rig) {
+    if (!boards_)
+        return refusal(404, "no board is looked for: the host needs ?board= behind --web");
+    const ColourImage image = rig.empty() ? ColourImage() : newest(rig);
+    if (image.empty()) return refusal(404, "the rig has no picture in the present frame set");
+    std::string sighting = boards_->ask(rig, image);
+    return {200, "application/json", sighting.empty() ? "null" : std::move(sighting), {}};
 }
 
 }  // namespace vantage

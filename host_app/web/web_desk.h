@@ -14,6 +14,7 @@
 #include "common/wire/codec/colour_codec.h"
 #include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/message_budget.h"
+#include "host_app/web/board_watch.h"
 
 namespace vantage {
 
@@ -54,10 +55,11 @@ struct WebStats {
 class WebDesk {
   public:
     struct Settings {
-        bool has_control = false;  ///< whether commands are obeyed
-        std::string pin = {};      ///< empty: none is asked for
-        bool is_local = true;      ///< listens at this computer only
-        bool is_secure = false;    ///< by TLS
+        bool has_control = false;                      ///< whether commands are obeyed
+        std::string pin = {};                          ///< empty: none is asked for
+        bool is_local = true;                          ///< listens at this computer only
+        bool is_secure = false;                        ///< by TLS
+        std::optional<CalibrationBoards> boards = {};  ///< that the page can look for
     };
     /// `input` must outlive it.
     WebDesk(Settings settings, OperatorInputBox& input);
@@ -79,6 +81,7 @@ class WebDesk {
     WebAnswer obey(const WebRequest& request, MonotonicTime now);
     /// `rig`: empty for the programme.
     WebAnswer picture(const std::string& rig, MonotonicTime now);
+    WebAnswer board(const std::string& rig);
     WebShown shown() const;
     ColourImage newest(const std::string& rig) const;
 
@@ -92,6 +95,7 @@ class WebDesk {
     MessageBudget attempts_;
     JpegEncoder encoder_;
     std::map<std::string, Picture> pictures_;
+    std::optional<BoardWatch> boards_;
 };
 
 /// Whether the host of a request is this computer's loopback, so that a page of another site cannot

@@ -16,9 +16,10 @@ namespace vantage {
 class WebServer {
   public:
     /// `url`: "http://HOST:PORT" or "https://HOST:PORT"; without a host at 127.0.0.1. Options:
-    /// control=yes, pin=DIGITS or pin-file=FILE, certificate=FILE and key=FILE, open=yes. Beyond
-    /// this computer it takes HTTPS and open=yes; without a PIN one is made and logged. Throws
-    /// Error for an address that is in use or not allowed. `input` must outlive it.
+    /// control=yes, pin=DIGITS or pin-file=FILE, certificate=FILE and key=FILE, open=yes, and
+    /// board=COLUMNSxROWS or board=FILE. Beyond this computer it takes HTTPS and open=yes; without
+    /// a PIN one is made and logged. Throws Error for an address that is in use or not allowed.
+    /// `input` must outlive it.
     WebServer(const std::string& url, OperatorInputBox& input);
     ~WebServer();
     WebServer(const WebServer&) = delete;

@@ -149,11 +149,14 @@ class FrameSet(Sequence[View]):
     """Time code of the pulse at the pulse rate."""
     damaged: list[str]
     """A sentence for each frame that is damaged and left out."""
+    decoding_s: float
+    """How long the frames took to read and decode, seconds."""
 
     def __init__(self, memory: mmap.mmap, head: dict[str, Any]) -> None:
         self.pulse = head["pulse"]
         self.timecode = head["timecode"]
         self.damaged = head["damaged"]
+        self.decoding_s = head["decoding_s"]
         self._views = [View(memory, view) for view in head["views"]]
 
     @property

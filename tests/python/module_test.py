@@ -1,6 +1,8 @@
 """Tests of the Python module over the take of version 1: two rigs of 96x72, 15 pulses."""
 
+import ast
 import gc
+import inspect
 import json
 import os
 import subprocess
@@ -10,6 +12,7 @@ import unittest
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 import vantage
 
@@ -44,6 +47,7 @@ class TakeTest(unittest.TestCase):
         frames = self.take[0]
         self.assertEqual(frames.pulse, self.take.pulses[0])
         self.assertEqual(frames.rigs, ["left", "right"])
+        self.assertGreater(frames.decoding_s, 0)
         view = frames["left"]
         self.assertEqual(view.colour.shape, (72, 96, 3))
         self.assertEqual(view.colour.dtype, np.uint8)
@@ -174,12 +178,104 @@ class ExampleTest(unittest.TestCase):
                     [sys.executable, example, TAKE], cwd=folder, capture_output=True, text=True
                 )
                 self.assertEqual(done.returncode, 0, f"{example.name}: {done.stderr}")
+            self.check_nerfstudio(Path(folder) / "nerfstudio")
+            self.check_colmap(Path(folder) / "colmap")
             cloud = (Path(folder) / "points.ply").read_bytes()
             self.assertTrue(cloud.startswith(b"ply\nformat binary_little_endian 1.0\n"))
             transforms = json.loads((Path(folder) / "gsplat" / "transforms.json").read_text())
             self.assertEqual(len(transforms["frames"]), 2)
             self.assertTrue((Path(folder) / "gsplat" / transforms["ply_file_path"]).exists())
             self.assertTrue((Path(folder) / "gsplat" / transforms["frames"][0]["file_path"]).exists())
+
+    def check_nerfstudio(self, folder):
+        frames = json.loads((folder / "transforms.json").read_text())["frames"]
+        with vantage.Take(TAKE) as take:
+            depth = take[0][0].depth
+        millimetres = np.asarray(Image.open(folder / frames[0]["depth_file_path"])).astype(float)
+        known = np.isfinite(depth)
+        np.testing.assert_allclose(millimetres[known], 1000 * depth[known], atol=1)
+        self.assertTrue((millimetres[~known] == 0).all())
+
+    def check_colmap(self, folder):
+        """Points of the model have the colour of their place in a picture."""
+        model = folder / "sparse" / "0"
+        cameras = [line.split() for line in (model / "cameras.txt").read_text().splitlines()]
+        images = (model / "images.txt").read_text().split("\n")
+        points = np.loadtxt(model / "points3D.txt")
+        self.assertEqual([c[1:4] for c in cameras], [["PINHOLE", "96", "72"]] * 2)
+        self.assertEqual(images[1::2], ["", ""], "after every image a list of its points")
+        number, w, x, y, z, tx, ty, tz, camera, name = images[0].split()
+        w, x, y, z = (float(each) for each in (w, x, y, z))
+        rotation = [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+        fx, fy, cx, cy = (float(each) for each in cameras[0][4:])
+        at = np.array(rotation) @ points[:, 1:4].T + np.array([[tx], [ty], [tz]], dtype=float)
+        columns, rows = fx * at[0] / at[2] + cx, fy * at[1] / at[2] + cy
+        with Image.open(folder / "images" / name) as image:
+            picture = np.asarray(image).astype(float)
+        own = slice(0, len(points) // 3)  # the points of the first rig come first
+        colours = picture[rows[own].astype(int), columns[own].astype(int)]
+        np.testing.assert_allclose(colours, points[own, 4:7], atol=1)
+
+
+class StubTest(unittest.TestCase):
+    """The types in __init__.pyi are those of the module."""
+
+    stub = ast.parse((Path(vantage.__file__).parent / "__init__.pyi").read_text())
+
+    def compare(self, name, function, node):
+        def shown(parameter):
+            default = parameter.default
+            return parameter.name, None if default is parameter.empty else default
+
+        given = node.args.posonlyargs + node.args.args
+        defaults = [None] * (len(given) - len(node.args.defaults)) + [
+            ast.literal_eval(each) for each in node.args.defaults
+        ]
+        stubbed = list(zip((each.arg for each in given), defaults))
+        if node.args.vararg:
+            stubbed.append((node.args.vararg.arg, None))
+        real = [shown(each) for each in inspect.signature(function).parameters.values()]
+        self.assertEqual(stubbed, real, name)
+        self.assertIsNotNone(node.returns, f"{name} has a result")
+
+    def test_types_fit_the_module(self):
+        functions = {n.name: n for n in self.stub.body if isinstance(n, ast.FunctionDef)}
+        classes = {n.name: n for n in self.stub.body if isinstance(n, ast.ClassDef)}
+        self.assertEqual(sorted(functions.keys() | classes.keys()), sorted(vantage.__all__))
+        for name, node in functions.items():
+            self.compare(name, getattr(vantage, name), node)
+        for name, node in classes.items():
+            real = getattr(vantage, name)
+            stubbed = set()
+            for each in node.body:
+                if isinstance(each, ast.AnnAssign):
+                    stubbed.add(each.target.id)
+                if not isinstance(each, ast.FunctionDef):
+                    continue
+                stubbed.add(each.name)
+                member = inspect.getattr_static(real, each.name)
+                if isinstance(member, classmethod):
+                    member = member.__func__
+                if inspect.isfunction(member):
+                    self.compare(f"{name}.{each.name}", member, each)
+            public = {n for n in vars(real) if not n.startswith("_")}
+            public |= {n for n in vars(real).get("__annotations__", {}) if not n.startswith("_")}
+            self.assertLessEqual(public, stubbed, f"{name}: what the stub lacks")
+
+    def test_everything_public_is_described(self):
+        for name in vantage.__all__:
+            thing = getattr(vantage, name)
+            self.assertTrue(thing.__doc__, name)
+            for member, value in vars(thing).items() if inspect.isclass(thing) else ():
+                if not member.startswith("_") and callable(getattr(value, "__get__", None)):
+                    self.assertTrue(value.__doc__, f"{name}.{member}")
+
+    def test_is_marked_as_typed(self):
+        self.assertTrue((Path(vantage.__file__).parent / "py.typed").exists())
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 #include "common/wire/random_id.h"
 #include "host_app/control/opentrackio/opentrackio_sample.h"
+#include "host_app/control/ports/camera_pacer.h"
 #include "host_app/control/ports/opentrackio_place.h"
 #include "host_app/control/ports/udp_socket.h"
 #include "host_app/output/frame_set_timecode.h"
@@ -27,7 +28,8 @@ class OpentrackioSink final : public PictureSink {
     OpentrackioSink(const OutputUrl& url, double rate_hz, double pulse_rate_hz)
         : name_(url.shown),
           to_(resolve(network_place_of(with_opentrackio_group(url)), "output " + url.shown)),
-          socket_(UdpSocket::sending(to_)) {
+          socket_(UdpSocket::sending(to_)),
+          pacer_(rate_hz, [this](const CameraTick& tick) { send(tick); }) {
         url.require_options_of({"source", "format", "sensor-mm"});
         encoding_ = url.choice("format", {"json", "cbor"}) == "cbor" ? OpentrackioEncoding::cbor
                                                                      : OpentrackioEncoding::json;
@@ -40,27 +42,30 @@ class OpentrackioSink final : public PictureSink {
         if (rate_hz <= most_timecode_hz) timecode_.emplace(pulse_rate_hz, rate_hz);
     }
     std::string name() const override { return name_; }
-    void take(const ProgrammePicture& picture) override {
-        sample_.camera = picture.camera;
+    void take(const ProgrammePicture& picture) override { pacer_.take(picture); }
+    void finish() override { pacer_.stop(); }
+
+  private:
+    void send(const CameraTick& tick) {
+        sample_.camera = tick.camera;
         sample_.time = TaiClock::now();
-        sample_.sequence = static_cast<std::uint32_t>(picture.tick);
-        sample_.sample_id = uuid_urn(base_, picture.tick + 1);
-        sample_.width_px = picture.picture.cols;
-        sample_.height_px = picture.picture.rows;
+        sample_.sequence = static_cast<std::uint32_t>(tick.tick);
+        sample_.sample_id = uuid_urn(base_, tick.tick + 1);
+        sample_.width_px = tick.width_px;
+        sample_.height_px = tick.height_px;
         sample_.timecode.reset();
         sample_.ptp_locked.reset();
-        if (picture.set) {
-            if (timecode_) sample_.timecode = SmpteCode::parse(timecode_->of(*picture.set));
-            sample_.ptp_locked = is_ptp_locked(*picture.set);
+        if (tick.set) {
+            if (timecode_) sample_.timecode = SmpteCode::parse(timecode_->of(*tick.set));
+            sample_.ptp_locked = is_ptp_locked(*tick.set);
         }
         // UDP has no receipt: a missing receiver is not an error.
         for (const std::vector<std::byte>& packet :
              opentrackio_packets(write_opentrackio_sample(sample_, encoding_), encoding_,
-                                 static_cast<std::uint16_t>(1 + picture.tick % most_sequence)))
+                                 static_cast<std::uint16_t>(1 + tick.tick % most_sequence)))
             (void)socket_.send(packet, to_);
     }
 
-  private:
     std::string name_;
     SocketAddress to_;
     UdpSocket socket_;
@@ -68,6 +73,7 @@ class OpentrackioSink final : public PictureSink {
     OpentrackioEncoding encoding_ = OpentrackioEncoding::json;
     OpentrackioSample sample_;
     std::optional<SetTimecode> timecode_;
+    CameraPacer pacer_;  ///< the last member: it uses the others until it has ended
 };
 
 }  // namespace

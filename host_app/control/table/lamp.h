@@ -36,8 +36,10 @@ struct ShowLamps {
     std::string wheel_mode, synthesiser, timecode;
     double render_level = 0, prepare_level = 0;
     double repeated_ticks = 0;
-    std::string replay_mode;                          ///< live, past, clip or list
-    std::string pulse;                                ///< index of the picture's pulse
+    bool fit_for_air = false;             ///< the verdict is READY
+    std::string verdict, verdict_reason;  ///< ready, caution or not_ready; empty: not known yet
+    std::string replay_mode;              ///< live, past, clip or list
+    std::string pulse;                    ///< index of the picture's pulse
     double clip = 0, played_clip = 0, clips = 0;      ///< numbers; 0: none
     double entry = 0, played_entry = 0, entries = 0;  ///< places from 1; 0: none
     double clip_left_s = -1, list_left_s = -1;        ///< -1: nothing plays

@@ -53,7 +53,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
     }
     for (const std::string& url : outputs)
         if (is_freed_url(url))
-            (void)make_freed_sink(url);
+            (void)make_freed_sink(url, settings.rate_hz);
         else if (is_opentrackio_url(url))
             (void)make_opentrackio_sink(url, settings.rate_hz, settings.pulse_rate_hz);
         else
@@ -244,7 +244,8 @@ void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
         .add_option("--web", web,
                     "Serve a page for tablets and phones on URL, http://HOST:PORT or https://...: "
                     "the programme, its state and the rigs (?control=yes lets it give commands; "
-                    "pin=DIGITS, pin-file=FILE, certificate=FILE and key=FILE, open=yes)")
+                    "pin=DIGITS, pin-file=FILE, certificate=FILE and key=FILE, open=yes; "
+                    "board=COLUMNSxROWS or board=FILE shows a technician the calibration board)")
         ->type_name("URL")
         ->group(group::control);
     command.add_flag("--headless", headless, "Run without a window")->group(group::control);

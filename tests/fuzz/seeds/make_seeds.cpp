@@ -326,6 +326,22 @@ void write_opentrackio(const Seeds& seeds) {
     }
 }
 
+/// Requests in lines and as bytes, as web_request_fuzz.cpp reads them.
+void write_web_requests(const Seeds& seeds) {
+    const std::string cookie(32, '0');
+    for (const char* path : {"/", "/state", "/programme.jpg", "/rig.jpg", "/board"})
+        seeds.write("web_request", fmt::format("get{}", std::string_view(path).substr(1)),
+                    fmt::format("LGET\n{}\nlocalhost:8443\n{}\nrig\nleft\n", path, cookie));
+    seeds.write("web_request", "command", "LPOST!\n/command\n127.0.0.1\n\n\n\nshot 3");
+    seeds.write("web_request", "login", "LPOST!\n/login\n[::1]:1\n\n\n\n1234");
+    seeds.write("web_request", "bytes",
+                "CPOST /command?a=%41&b HTTP/1.1\r\nHost: localhost\r\nX-Vantage: 1\r\nCookie: "
+                "vantage=00; other=\"a b\"\r\nContent-Length: 4\r\n\r\nlive");
+    seeds.write("web_request", "chunks",
+                "CPOST /login HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: "
+                "chunked\r\n\r\n4\r\n1234\r\n0\r\n\r\nGET /state HTTP/1.1\r\nHost: [::1]\r\n\r\n");
+}
+
 /// As ltc_fuzz.cpp has its sound.
 void write_time_code(const Seeds& seeds) {
     LtcWriter writer(25);
@@ -486,6 +502,7 @@ int main(int argc, char** argv) {
         vantage::write_controls(seeds);
         vantage::write_time_code(seeds);
         vantage::write_opentrackio(seeds);
+        vantage::write_web_requests(seeds);
         vantage::write_wheels(seeds);
         vantage::write_calibration(seeds);
         vantage::write_takes(seeds);

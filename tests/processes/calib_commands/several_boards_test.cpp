@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "calib_tools/board/board_file.h"
-#include "calib_tools/board/board_finder.h"
+#include "common/board/board_file.h"
+#include "common/board/board_finder.h"
 #include "common/config/calibration_file.h"
 #include "common/image/image_file.h"
 #include "tests/support/boards/rendered_stage.h"

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "calib_tools/board/board_file.h"
 #include "common/base/error.h"
+#include "common/board/board_file.h"
 #include "common/colour/colour_file.h"
 #include "common/config/calibration_file.h"
 #include "common/image/image_file.h"

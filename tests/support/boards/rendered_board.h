@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "calib_tools/board/board_pattern.h"
+#include "common/board/board_pattern.h"
 #include "common/geometry/camera_model.h"
 #include "common/geometry/pose.h"
 #include "common/image/image.h"

@@ -5,11 +5,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calib_tools/board/board_drawing.h"
-#include "calib_tools/board/board_file.h"
-#include "calib_tools/board/board_finder.h"
-#include "calib_tools/board/charuco_finder.h"
 #include "calib_tools/board/paper.h"
 #include "common/base/error.h"
+#include "common/board/board_file.h"
+#include "common/board/board_finder.h"
+#include "common/board/charuco_finder.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 

@@ -1,4 +1,4 @@
-#include "calib_tools/board/corner_grid.h"
+#include "common/board/corner_grid.h"
 
 #include <gtest/gtest.h>
 

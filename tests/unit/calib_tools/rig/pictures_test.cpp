@@ -6,10 +6,10 @@
 #include <opencv2/imgproc.hpp>
 
 #include "calib_tools/board/board_drawing.h"
-#include "calib_tools/board/chessboard_finder.h"
-#include "calib_tools/board/corner_refiner.h"
 #include "calib_tools/pictures/seen_picture.h"
 #include "common/base/error.h"
+#include "common/board/chessboard_finder.h"
+#include "common/board/corner_refiner.h"
 #include "common/image/image_file.h"
 #include "common/image/picture_list.h"
 #include "tests/support/data_folder.h"

@@ -111,7 +111,7 @@ TEST_F(BenchTest, WhatALensIsTakenForIsToldOnce) {
 
 TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     const auto port = open("freed", "?camera=3");
-    const auto sink = make_freed_sink(fmt::format("freed://127.0.0.1:{}?camera=3", number_));
+    const auto sink = make_freed_sink(fmt::format("freed://127.0.0.1:{}?camera=3", number_), 25);
     ProgrammePicture picture;
     picture.camera = some_camera();
     sink->take(picture);
@@ -121,7 +121,7 @@ TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     ASSERT_TRUE(heard);
     EXPECT_TRUE(is_same_view(*heard, some_camera()));
     EXPECT_NEAR(heard->focus_m, 4.25, 1e-3);
-    const auto other = make_freed_sink(fmt::format("freed://127.0.0.1:{}", number_));
+    const auto other = make_freed_sink(fmt::format("freed://127.0.0.1:{}", number_), 25);
     other->take(picture);
     peer_.send("damaged", number_);
     serve(*port, 3);

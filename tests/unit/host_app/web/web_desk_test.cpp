@@ -1,9 +1,12 @@
 #include "host_app/web/web_desk.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "common/wire/codec/colour_codec.h"
 #include "host_app/web/web_page.h"
+#include "tests/support/eventually.h"
+#include "tests/support/thrown_sentence.h"
 
 namespace vantage {
 namespace {
@@ -82,6 +85,59 @@ TEST_F(WebDeskTest, ShowsRigsWithTheirSharpness) {
     EXPECT_GT(std::stod(header(sharp, "X-Sharpness")), 100);
     request.query["rig"] = "<script>";
     EXPECT_EQ(desk.answer(request, now_).status, 404u);
+}
+
+/// A chessboard of 7 x 5 inner corners in the middle of a picture.
+ColourImage chessboard_picture() {
+    constexpr int square = 40, left = 120, top = 90;
+    ColourImage picture(420, 560, cv::Vec4b(255, 255, 255, 255));
+    for (int row = 0; row < 6; ++row)
+        for (int column = 0; column < 8; ++column)
+            if ((row + column) % 2 == 0)
+                picture(cv::Rect(left + column * square, top + row * square, square, square))
+                    .setTo(cv::Vec4b(0, 0, 0, 255));
+    return picture;
+}
+
+TEST_F(WebDeskTest, FindsTheBoardInTheRigsPicture) {
+    WebDesk desk({.boards = boards_of_option("7x5")}, input_);
+    auto set = std::make_shared<FrameSet>();
+    auto frame = std::make_shared<RigFrame>();
+    frame->colour = chessboard_picture();
+    set->slots.push_back({"left", frame});
+    desk.show({.picture = {}, .set = set});
+    WebRequest request = get("/board");
+    EXPECT_EQ(desk.answer(request, now_).status, 404u) << "of which rig?";
+    request.query["rig"] = "left";
+    WebAnswer found;
+    ASSERT_TRUE(eventually([&] {
+        found = desk.answer(request, now_);
+        return found.body != "null";
+    }));
+    ASSERT_EQ(found.status, 200u);
+    const nlohmann::json json = nlohmann::json::parse(found.body);
+    EXPECT_EQ(json["found"], true) << found.body;
+    EXPECT_EQ(json["seen"], 35);
+    EXPECT_EQ(json["of"], 35);
+    EXPECT_NEAR(json["square_px"].get<double>(), 40, 0.5);
+    double least_x = 1;
+    for (const auto& corner : json["corners"]) least_x = std::min(least_x, corner[0].get<double>());
+    EXPECT_NEAR(least_x, 160.0 / 560, 0.003);
+    request.query["rig"] = "right";
+    EXPECT_EQ(desk.answer(request, now_).status, 404u);
+    WebDesk without({}, input_);
+    EXPECT_NE(without.answer(request, now_).body.find("needs ?board="), std::string::npos);
+}
+
+TEST(BoardWatch, NamesWhyThereIsNoBoard) {
+    const auto json = nlohmann::json::parse(
+        board_sighting_json(GreyImage(200, 300, std::uint8_t{90}), boards_of_option("9x6")));
+    EXPECT_EQ(json["found"], false);
+    EXPECT_NE(json["why"], "");
+    EXPECT_EQ(json["of"], 54);
+    EXPECT_NE(thrown_sentence([] { (void)boards_of_option("nine"); }), "");
+    EXPECT_NE(thrown_sentence([] { (void)boards_of_option("none.toml"); }).find("none.toml"),
+              std::string::npos);
 }
 
 TEST_F(WebDeskTest, ObeysCommandsOfTheTableOnlyIfAllowed) {

@@ -115,6 +115,7 @@ TEST_F(WebServerTest, UrlsAreChecked) {
     refused("http://:8080?control=perhaps", "control");
     refused("https://:8080?certificate=a", "both certificate=FILE and key=FILE");
     refused("http://:8080?certificate=a&key=b", "only https:// uses");
+    refused("http://:8080?board=none.toml", "none.toml");
     refused("http://:8080?lamps=1", "no option 'lamps'");
     EXPECT_NE(thrown_sentence([&] {
                   WebServer(local("?pin=12"), input_);

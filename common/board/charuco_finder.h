@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/board_pattern.h"
-#include "calib_tools/board/board_view.h"
-#include "calib_tools/board/marker_dictionary.h"
+#include "common/board/board_pattern.h"
+#include "common/board/board_view.h"
+#include "common/board/marker_dictionary.h"
 #include "common/image/image.h"
 
 namespace vantage {

@@ -1,9 +1,9 @@
-#include "calib_tools/board/calibration_boards.h"
+#include "common/board/calibration_boards.h"
 
 #include <algorithm>
 
-#include "calib_tools/board/charuco_finder.h"
 #include "common/base/error.h"
+#include "common/board/charuco_finder.h"
 
 namespace vantage {
 namespace {

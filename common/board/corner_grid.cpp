@@ -1,11 +1,11 @@
-#include "calib_tools/board/corner_grid.h"
+#include "common/board/corner_grid.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "calib_tools/board/median.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

@@ -1,4 +1,4 @@
-#include "calib_tools/board/marker_dictionary.h"
+#include "common/board/marker_dictionary.h"
 
 #include <string>
 

@@ -1,11 +1,11 @@
-#include "calib_tools/board/board_file.h"
+#include "common/board/board_file.h"
 
 #include <span>
 #include <string>
 
-#include "calib_tools/board/charuco_finder.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/board/charuco_finder.h"
 #include "common/config/toml_reader.h"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "calib_tools/board/board_view.h"
+#include "common/board/board_view.h"
 
 #include <cmath>
 #include <vector>

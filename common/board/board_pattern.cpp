@@ -1,4 +1,4 @@
-#include "calib_tools/board/board_pattern.h"
+#include "common/board/board_pattern.h"
 
 #include <charconv>
 #include <cmath>

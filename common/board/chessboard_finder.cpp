@@ -1,4 +1,4 @@
-#include "calib_tools/board/chessboard_finder.h"
+#include "common/board/chessboard_finder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "calib_tools/board/board_view.h"
-#include "calib_tools/board/corner_grid.h"
-#include "calib_tools/board/corner_refiner.h"
-#include "calib_tools/board/median.h"
 #include "common/base/error.h"
+#include "common/board/board_view.h"
+#include "common/board/corner_grid.h"
+#include "common/board/corner_refiner.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

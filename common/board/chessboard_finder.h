@@ -2,8 +2,8 @@
 
 #include <optional>
 
-#include "calib_tools/board/board_pattern.h"
-#include "calib_tools/board/board_view.h"
+#include "common/board/board_pattern.h"
+#include "common/board/board_view.h"
 #include "common/image/image.h"
 
 namespace vantage {

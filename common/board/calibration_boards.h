@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "calib_tools/board/board_pattern.h"
+#include "common/board/board_pattern.h"
 
 namespace vantage {
 

@@ -1,4 +1,4 @@
-#include "calib_tools/board/corner_refiner.h"
+#include "common/board/corner_refiner.h"
 
 #include <algorithm>
 #include <cmath>

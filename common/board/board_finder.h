@@ -1,7 +1,7 @@
 #pragma once
 
-#include "calib_tools/board/board_view.h"
-#include "calib_tools/board/calibration_boards.h"
+#include "common/board/board_view.h"
+#include "common/board/calibration_boards.h"
 #include "common/image/image.h"
 
 namespace vantage {

@@ -104,7 +104,7 @@ OutputUrl parsed_web_url(const std::string& text) {
     OutputUrl url = OutputUrl::parse(text, "web");
     if (url.scheme != "http" && url.scheme != "https")
         fail("the web address {} is not http://HOST:PORT or https://HOST:PORT", url.shown);
-    url.require_options_of({"open", "control", "pin", "pin-file", "certificate", "key"});
+    url.require_options_of({"open", "control", "pin", "pin-file", "certificate", "key", "board"});
     if (const auto pin = url.option("pin")) {
         const std::size_t at = url.shown.find("pin=");
         url.shown.replace(at, 4 + pin->size(), "pin=***");
@@ -115,6 +115,11 @@ OutputUrl parsed_web_url(const std::string& text) {
     if (url.scheme == "http" && url.option("certificate"))
         fail("the web address {} has a certificate, which only https:// uses", url.shown);
     return url;
+}
+
+std::optional<CalibrationBoards> boards_of(const OutputUrl& url) {
+    if (const auto board = url.option("board")) return boards_of_option(*board);
+    return std::nullopt;
 }
 
 NetworkPlace web_place_of(const OutputUrl& url) {
@@ -129,7 +134,11 @@ NetworkPlace web_place_of(const OutputUrl& url) {
 
 void WebServer::Stop::operator()(MHD_Daemon* daemon) const { MHD_stop_daemon(daemon); }
 
-void require_web_url(const std::string& url) { (void)web_place_of(parsed_web_url(url)); }
+void require_web_url(const std::string& text) {
+    const OutputUrl url = parsed_web_url(text);
+    (void)web_place_of(url);
+    (void)boards_of(url);
+}
 
 WebServer::WebServer(const std::string& text, OperatorInputBox& input) {
     const OutputUrl url = parsed_web_url(text);
@@ -147,7 +156,8 @@ WebServer::WebServer(const std::string& text, OperatorInputBox& input) {
         WebDesk::Settings{.has_control = url.choice("control", {"no", "yes"}) == "yes",
                           .pin = pin_of(url, place.is_loopback),
                           .is_local = place.is_loopback,
-                          .is_secure = is_secure},
+                          .is_secure = is_secure,
+                          .boards = boards_of(url)},
         input);
     const std::string what = "web " + url.shown;
     std::vector<ListenAttempt> attempts;

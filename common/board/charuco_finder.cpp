@@ -1,4 +1,4 @@
-#include "calib_tools/board/charuco_finder.h"
+#include "common/board/charuco_finder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +7,12 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "calib_tools/board/board_view.h"
-#include "calib_tools/board/corner_refiner.h"
-#include "calib_tools/board/marker_dictionary.h"
-#include "calib_tools/board/median.h"
 #include "common/base/counted.h"
 #include "common/base/error.h"
+#include "common/board/board_view.h"
+#include "common/board/corner_refiner.h"
+#include "common/board/marker_dictionary.h"
+#include "common/board/median.h"
 
 namespace vantage {
 namespace {

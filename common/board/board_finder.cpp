@@ -1,4 +1,4 @@
-#include "calib_tools/board/board_finder.h"
+#include "common/board/board_finder.h"
 
 #include <algorithm>
 #include <map>
@@ -8,10 +8,10 @@
 
 #include <opencv2/core.hpp>
 
-#include "calib_tools/board/charuco_finder.h"
-#include "calib_tools/board/chessboard_finder.h"
-#include "calib_tools/board/median.h"
 #include "common/base/error.h"
+#include "common/board/charuco_finder.h"
+#include "common/board/chessboard_finder.h"
+#include "common/board/median.h"
 
 namespace vantage {
 
