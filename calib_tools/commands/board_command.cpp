@@ -75,6 +75,14 @@ void require_not_measured(const std::string& description, const std::vector<Boar
          description);
 }
 
+/// The path that the files' extensions are added to: one of them may be given with it.
+std::string without_extension(const std::string& output) {
+    std::filesystem::path path = output;
+    for (const char* extension : {".pdf", ".png", ".toml"})
+        if (path.extension() == extension) return path.replace_extension().string();
+    return output;
+}
+
 void run(const PrintedBoardOptions& options) {
     std::optional<Paper> paper;
     if (!options.paper.empty()) paper = paper_named(options.paper);
@@ -94,14 +102,14 @@ void run(const PrintedBoardOptions& options) {
             "at {} dots per inch a square is {} px and the picture {} px wide; 12 px and {} px are "
             "the limits: change --dpi",
             options.dots_per_inch, square_px, widest, max_image_side_px);
-    const std::string pdf = options.output + ".pdf", description = options.output + ".toml";
+    const std::string output = without_extension(options.output);
+    const std::string pdf = output + ".pdf", description = output + ".toml";
     require_not_measured(description, faces);
     const std::vector<std::byte> pages = board_as_pdf(faces, paper);
     const std::string page = page_in_words(page_of(pattern, faces.size() > 1), paper);
     std::vector<std::string> pngs;
     for (std::size_t i = 0; i < faces.size(); ++i) {
-        pngs.push_back(options.output +
-                       (faces.size() > 1 ? fmt::format("_{}.png", i + 1) : ".png"));
+        pngs.push_back(output + (faces.size() > 1 ? fmt::format("_{}.png", i + 1) : ".png"));
         write_grey_image(pngs.back(), draw_board(faces[i], square_px));
     }
     write_file_atomically(pdf, pages);
@@ -170,8 +178,7 @@ CommandEntry board_command_entry() {
             ->check(CLI::Range(10.0, 2400.0))
             ->capture_default_str();
         command
-            ->add_option("-o,--output", options->output,
-                         "path without extension; .pdf, .png and .toml are written")
+            ->add_option("-o,--output", options->output, "path; .pdf, .png and .toml are written")
             ->required();
         command->add_flag("--json", options->json, "write the result as JSON");
         command->callback([options] { run(*options); });

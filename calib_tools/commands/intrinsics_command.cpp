@@ -34,8 +34,7 @@ struct IntrinsicsOptions {
 
 struct SeenSeries {
     std::vector<SeenPicture> pictures;
-    std::string kept;                        ///< see BoardFilm::kept
-    std::shared_ptr<FilmFrames> films = {};  ///< keeps the frames of a video
+    std::string kept;  ///< see BoardFilm::kept
 };
 
 SeenSeries look(const IntrinsicsOptions& options, const BoardPattern& pattern) {
@@ -45,21 +44,16 @@ SeenSeries look(const IntrinsicsOptions& options, const BoardPattern& pattern) {
             pictures = {options.live.kept_pictures(options.side)};
         if (pictures.empty())
             fail("which pictures? give --images, --rig NAME=FOLDER, or --live and --rig");
-        if (const std::filesystem::path film = film_among(pictures); !film.empty()) {
-            constexpr std::size_t most_film_frames = 60;
-            auto frames = std::make_shared<FilmFrames>(std::vector<std::filesystem::path>{film},
-                                                       most_film_frames);
-            std::vector<SeenPicture> seen = look_at_pictures(frames->pictures()[0], pattern);
-            return {std::move(seen), {}, std::move(frames)};
-        }
-        return {look_at_pictures(expand_pictures(pictures), pattern), {}, {}};
+        if (const std::filesystem::path film = film_among(pictures); !film.empty())
+            return {look_at_pictures(std::move(read_film_frames({film}).front()), pattern), {}};
+        return {look_at_pictures(expand_pictures(pictures), pattern), {}};
     }
     const RigFolder rig = options.live.folder();
     LiveRigs rigs = options.live.connect({rig});
     BoardFilm film =
         film_board(rigs, {{0, options.side == "left", options.side, rig.folder}}, pattern,
                    options.live.film(), all_see_board, lens_advice({options.side}));
-    return {std::move(film.pictures[0]), film.kept, {}};
+    return {std::move(film.pictures[0]), film.kept};
 }
 
 void run(const IntrinsicsOptions& options) {

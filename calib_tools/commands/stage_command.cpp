@@ -36,7 +36,8 @@ struct StageOptions {
     StagePairsOptions single_cameras;
 };
 
-/// Board sightings by frame set; images with another size than the calibration are refused.
+/// Board sightings by frame set. Images without the board, and images with another size than the
+/// calibration, are added to the rejected ones with the reason.
 std::map<long long, BoardCorners> by_instant(const std::vector<SeenPicture>& pictures,
                                              const std::vector<long long>& numbers,
                                              const StageRig& rig, const CameraModel& camera,
@@ -45,8 +46,7 @@ std::map<long long, BoardCorners> by_instant(const std::vector<SeenPicture>& pic
     for (std::size_t i = 0; i < pictures.size(); ++i) {
         const SeenPicture& p = pictures[i];
         if (!p.sighting.found()) {
-            // On a wide stage most frame sets show the board to some rigs only.
-            log_debug("{}: {} {}", rig.name, p.name(), p.sighting.reason);
+            notes.rejected.push_back({rig.name + ": " + p.name(), p.sighting.reason});
             continue;
         }
         if (p.width_px != camera.width_px || p.height_px != camera.height_px) {

@@ -1,5 +1,7 @@
 #include <iostream>
+#include <iterator>
 #include <memory>
+#include <tuple>
 
 #include <CLI/CLI.hpp>
 
@@ -21,14 +23,11 @@
 namespace vantage {
 namespace {
 
-/// Frames of a video that are searched for the board, at most.
-constexpr std::size_t most_film_frames = 60;
-
 struct StereoOptions {
     BoardOptions board;
     LensOption lens;
     LiveRigOption live;
-    std::vector<std::string> left, right;
+    std::vector<std::string> left, right, side_by_side;
     std::string output;
     double alpha = 0, far_m = 0;
     std::vector<int> rectified_size;
@@ -39,38 +38,53 @@ struct StereoOptions {
 struct SeenPairs {
     std::vector<SeenPicture> left, right;
     std::vector<std::filesystem::path> alone;
-    std::string kept;                        ///< see BoardFilm::kept
-    std::shared_ptr<FilmFrames> films = {};  ///< keeps the frames of videos
+    std::string kept;  ///< see BoardFilm::kept
 };
 
+/// Detects the board in both series, whose pictures at one place are a pair.
+SeenPairs look_at_pairs(std::vector<SeenPicture> left, std::vector<SeenPicture> right,
+                        const BoardPattern& pattern) {
+    const std::size_t pairs = left.size();
+    std::move(right.begin(), right.end(), std::back_inserter(left));
+    std::vector<SeenPicture> seen = look_at_pictures(std::move(left), pattern);
+    const auto middle = std::make_move_iterator(seen.begin() + static_cast<std::ptrdiff_t>(pairs));
+    return {{std::make_move_iterator(seen.begin()), middle},
+            {middle, std::make_move_iterator(seen.end())},
+            {},
+            {}};
+}
+
+SeenPairs pairs_side_by_side(const std::vector<std::string>& names, const BoardPattern& pattern) {
+    const std::filesystem::path film = film_among(names);
+    PictureHalves halves = halves_of(film.empty() ? read_pictures(expand_pictures(names))
+                                                  : read_film_frames({film}).front());
+    return look_at_pairs(std::move(halves.left), std::move(halves.right), pattern);
+}
+
 SeenPairs pairs_from_files(const StereoOptions& options, const BoardPattern& pattern) {
+    if (!options.side_by_side.empty()) return pairs_side_by_side(options.side_by_side, pattern);
     std::vector<std::string> lefts = options.left, rights = options.right;
     if (lefts.empty() && rights.empty() && !options.live.rig.empty()) {
         lefts = {options.live.kept_pictures("left")};
         rights = {options.live.kept_pictures("right")};
     }
     if (lefts.empty() || rights.empty())
-        fail("which pictures? give --left and --right, --rig NAME=FOLDER, or --live and --rig");
+        fail(
+            "which pictures? give --left and --right, --side-by-side for pictures that hold both "
+            "sides, --rig NAME=FOLDER, or --live and --rig");
     const std::filesystem::path left_film = film_among(lefts), right_film = film_among(rights);
     if (left_film.empty() != right_film.empty())
         fail(
             "one side is a video and the other is not: give two videos, or pictures of both sides");
-    PicturePairs pictures;
-    SeenPairs result;
     if (!left_film.empty()) {
-        result.films = std::make_shared<FilmFrames>(
-            std::vector<std::filesystem::path>{left_film, right_film}, most_film_frames);
-        pictures = pair_pictures(result.films->pictures()[0], result.films->pictures()[1]);
-    } else {
-        pictures = pair_pictures(expand_pictures(lefts), expand_pictures(rights));
+        std::vector<std::vector<SeenPicture>> frames = read_film_frames({left_film, right_film});
+        return look_at_pairs(std::move(frames[0]), std::move(frames[1]), pattern);
     }
-    std::vector<std::filesystem::path> files;
-    for (const auto& [left, right] : pictures.pairs) files.push_back(left);
-    for (const auto& [left, right] : pictures.pairs) files.push_back(right);
-    const std::vector<SeenPicture> seen = look_at_pictures(files, pattern);
-    const auto middle = seen.begin() + static_cast<std::ptrdiff_t>(pictures.pairs.size());
-    result.left.assign(seen.begin(), middle);
-    result.right.assign(middle, seen.end());
+    const PicturePairs pictures = pair_pictures(expand_pictures(lefts), expand_pictures(rights));
+    std::vector<SeenPicture> left(pictures.pairs.size()), right(pictures.pairs.size());
+    for (std::size_t i = 0; i < pictures.pairs.size(); ++i)
+        std::tie(left[i].path, right[i].path) = pictures.pairs[i];
+    SeenPairs result = look_at_pairs(std::move(left), std::move(right), pattern);
     result.alone = pictures.alone;
     return result;
 }
@@ -81,7 +95,7 @@ SeenPairs pairs_from_rig(const StereoOptions& options, const BoardPattern& patte
     BoardFilm film =
         film_board(rigs, {{0, true, "left", rig.folder}, {0, false, "right", rig.folder}}, pattern,
                    options.live.film(), all_see_board, lens_advice({"left", "right"}));
-    return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}, film.kept, {}};
+    return {std::move(film.pictures[0]), std::move(film.pictures[1]), {}, film.kept};
 }
 
 void run(const StereoOptions& options) {
@@ -137,6 +151,10 @@ CommandEntry stereo_command_entry() {
                             "left pictures: 'PATTERN', folder, files or a video");
         command->add_option("--right", options->right,
                             "right pictures: 'PATTERN', folder, files or a video");
+        command
+            ->add_option("--side-by-side", options->side_by_side,
+                         "pictures or a video that hold both sides: the left one in the left half")
+            ->excludes("--left", "--right");
         options->live.add_to(*command);
         command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
             ->required();

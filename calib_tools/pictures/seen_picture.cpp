@@ -45,10 +45,16 @@ void judge(const GreyImage& grey, SeenPicture& picture) {
         static_cast<double>(cv::countNonZero(grey >= 254)) / static_cast<double>(grey.total());
 }
 
+GreyImage grey_of(const SeenPicture& picture, CodeRange range) {
+    return picture.pixels.empty() ? to_grey(read_colour_image(picture.path, range))
+                                  : picture.pixels;
+}
+
 void look_at(SeenPicture& picture, const CalibrationBoards& boards, CodeRange range) {
     try {
-        picture =
-            look_at_picture(to_grey(read_colour_image(picture.path, range)), picture.path, boards);
+        SeenPicture seen = look_at_picture(grey_of(picture, range), picture.path, boards);
+        seen.pixels = picture.pixels;
+        picture = std::move(seen);
     } catch (const Error& error) {
         picture.sighting = {};
         picture.sighting.reason = error.what();
@@ -142,12 +148,21 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
                                           const CalibrationBoards& boards) {
     std::vector<SeenPicture> pictures(files.size());
     for (std::size_t i = 0; i < files.size(); ++i) pictures[i].path = files[i];
+    return look_at_pictures(std::move(pictures), boards);
+}
+
+std::vector<SeenPicture> look_at_pictures(std::vector<SeenPicture> pictures,
+                                          const CalibrationBoards& boards) {
+    std::vector<std::filesystem::path> files;
+    for (const SeenPicture& picture : pictures)
+        if (picture.pixels.empty()) files.push_back(picture.path);
     const CodeRange codes = common_code_range(files, files.size());
+    const std::size_t total = pictures.size();
     std::atomic<std::size_t> done{0};
-    const std::size_t step = std::max<std::size_t>(10, files.size() / 10);
-    std::vector<std::exception_ptr> failures(files.size());
+    const std::size_t step = std::max<std::size_t>(10, total / 10);
+    std::vector<std::exception_ptr> failures(total);
     cv::parallel_for_(
-        cv::Range(0, static_cast<int>(files.size())),
+        cv::Range(0, static_cast<int>(total)),
         [&](const cv::Range& range) {
             for (int i = range.start; i < range.end; ++i) {
                 const auto index = static_cast<std::size_t>(i);
@@ -158,11 +173,11 @@ std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::pat
                     failures[index] = std::current_exception();
                 }
                 const std::size_t count = ++done;
-                if (count % step == 0 || count == files.size())
-                    log_info("{} of {} pictures searched for the board", count, files.size());
+                if (count % step == 0 || count == total)
+                    log_info("{} of {} pictures searched for the board", count, total);
             }
         },
-        static_cast<double>(files.size()));
+        static_cast<double>(total));
     for (const std::exception_ptr& failure : failures)
         if (failure) std::rethrow_exception(failure);
     settle_layout(pictures, boards, codes);
@@ -205,12 +220,12 @@ void refuse_repeated(std::vector<SeenPicture>& pictures) {
 
 void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const CalibrationBoards& boards) {
     std::size_t mirrored = 0, found = 0;
-    std::vector<std::filesystem::path> without;
+    std::vector<const SeenPicture*> without;
     for (const SeenPicture& p : pictures) {
         if (p.sighting.found())
             ++found;
         else if (p.width_px > 0)
-            without.push_back(p.path);
+            without.push_back(&p);
         if (p.sighting.mirrored) ++mirrored;
     }
     if (mirrored > found)
@@ -224,9 +239,8 @@ void refuse_wrong_board(const std::vector<SeenPicture>& pictures, const Calibrat
     constexpr std::size_t samples = 6;
     std::map<std::pair<int, int>, int> votes;
     for (std::size_t i = 0; i < std::min(samples, without.size()); ++i) {
-        const std::filesystem::path& path = without[i * without.size() / samples % without.size()];
-        const std::optional<BoardPattern> other =
-            find_other_size(to_grey(read_colour_image(path)), pattern);
+        const SeenPicture& picture = *without[i * without.size() / samples % without.size()];
+        const std::optional<BoardPattern> other = find_other_size(grey_of(picture, {}), pattern);
         if (other && ++votes[{other->columns, other->rows}] >= 2)
             fail(
                 "the pictures show a board of {} inner corners, not {} (corners where four squares "

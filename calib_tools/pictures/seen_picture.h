@@ -12,6 +12,7 @@ namespace vantage {
 struct SeenPicture {
     std::filesystem::path path;
     int width_px = 0, height_px = 0;
+    GreyImage pixels;  ///< of a picture in memory; empty for a file, which is read when needed
     BoardSighting sighting;  ///< without corners, its reason says why
     double sharpness = 0;    ///< slope of its steepest edges, as a share of its contrast per pixel
     double saturated = 0;    ///< share of pixels with the highest value
@@ -22,6 +23,10 @@ struct SeenPicture {
 /// files, boards of another size, blur and glare become reasons, never exceptions. Blur is judged
 /// relative to the sharper half of the series, since lenses differ.
 std::vector<SeenPicture> look_at_pictures(const std::vector<std::filesystem::path>& files,
+                                          const CalibrationBoards& boards);
+
+/// The same for pictures that may be in memory already.
+std::vector<SeenPicture> look_at_pictures(std::vector<SeenPicture> pictures,
                                           const CalibrationBoards& boards);
 
 /// Detects the board in an image in memory, without judging blur and glare.

@@ -41,15 +41,18 @@ std::string closing_lines(const Calibration& c) {
     return text;
 }
 
+/// An angle to the hundredth of a degree, never as "-0.00".
+double rounded_deg(double angle_deg) { return std::round(100 * angle_deg) / 100 + 0.0; }
+
 /// How the cameras are aimed, and the distances that the disparities reach.
 std::string aim_lines(const RigCalibration& c) {
     const RectifiedStereo& r = c.calibration.rectified;
-    std::string text = fmt::format("aim: toed in by {:.2f} degrees", c.aim.toe_in_deg);
-    if (c.aim.toe_in_deg < 0)
-        text = fmt::format("aim: turned apart by {:.2f} degrees", -c.aim.toe_in_deg);
+    const double toe_in_deg = rounded_deg(c.aim.toe_in_deg);
+    std::string text = fmt::format("aim: toed in by {:.2f} degrees", toe_in_deg);
+    if (toe_in_deg < 0) text = fmt::format("aim: turned apart by {:.2f} degrees", -toe_in_deg);
     if (c.aim.crossing_m > 0 && c.aim.crossing_m < 100)
         text += fmt::format(", axes cross at {:.2f} m", c.aim.crossing_m);
-    text += fmt::format(", rolled by {:.2f} degrees\nreach:", c.aim.roll_deg);
+    text += fmt::format(", rolled by {:.2f} degrees\nreach:", rounded_deg(c.aim.roll_deg));
     for (const int disparities : reported_disparities)
         text += fmt::format(" from {:.2f} m with {} disparities,", nearest_m(r, disparities),
                             disparities);

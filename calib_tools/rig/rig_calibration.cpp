@@ -232,6 +232,14 @@ std::vector<std::string> doubt_rectification(const StereoCalibration& rig, const
             "nothing beyond is measured; --far-m states another distance",
             aim.toe_in_deg, 100 * shared_view(rig, std::numeric_limits<double>::infinity()),
             far_m));
+    constexpr double least_kept = 0.8;
+    const double kept = aim.crossing_m > 0 ? kept_view(rig, aim.crossing_m) : 1;
+    if (kept < least_kept)
+        doubts.push_back(fmt::format(
+            "of what both cameras see at {:.3g} m, where their axes cross, the rectified pictures "
+            "keep {:.0f} %: what stands beside that place is cut off; --alpha 1 keeps all of it, "
+            "and a nearer --far-m more of it",
+            aim.crossing_m, 100 * kept));
     if (std::abs(aim.roll_deg) > most_level_roll_deg)
         doubts.push_back(fmt::format(
             "the right camera is rolled by {:.1f} degrees about its axis against the left one: "

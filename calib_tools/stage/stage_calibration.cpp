@@ -275,7 +275,8 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& given,
     const BoardPattern& first = boards.boards.front();
     if (first.kind == BoardKind::chessboard && looks_alike_half_turned(first))
         fail(
-            "a {} chessboard looks the same when turned half round, so rigs that see it from "
+            "a chessboard of {} corners looks the same when turned half round, so rigs that see it "
+            "from "
             "different sides cannot agree: take one with an odd and an even count of corners, or "
             "a ChArUco board",
             first.size_name());
@@ -385,7 +386,7 @@ StageCalibration calibrate_stage(const std::vector<StageRig>& given,
         if (rig.instants == 0)
             fail(
                 "every picture of rig {} contradicts the other rigs: its calibration is not its "
-                "own, its left and right pictures are swapped, or it was moved",
+                "own, its left and right pictures are swapped or turned, or it was moved",
                 rig.name);
         stage.rigs.push_back(rig);
     }

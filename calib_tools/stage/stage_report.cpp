@@ -5,15 +5,28 @@
 #include <fmt/format.h>
 
 #include "common/base/counted.h"
+#include "common/geometry/json_rows.h"
 
 namespace vantage {
 namespace {
 
-nlohmann::json rows_of(const Pose& pose) {
-    const Eigen::Matrix4d m = pose.matrix();
-    nlohmann::json rows = nlohmann::json::array();
-    for (int r = 0; r < 3; ++r) rows.push_back({m(r, 0), m(r, 1), m(r, 2), m(r, 3)});
-    return rows;
+/// A line for each reason, with the names of all pictures that have it: on a wide stage most
+/// pictures show the board to some rigs only.
+std::string not_used_lines(const std::vector<Refusal>& rejected) {
+    std::vector<Refusal> by_reason;
+    for (const Refusal& refusal : rejected) {
+        const auto same =
+            std::find_if(by_reason.begin(), by_reason.end(),
+                         [&](const Refusal& other) { return other.reason == refusal.reason; });
+        if (same == by_reason.end())
+            by_reason.push_back(refusal);
+        else
+            same->name += ", " + refusal.name;
+    }
+    std::string lines;
+    for (const Refusal& refusal : by_reason)
+        lines += fmt::format("not used: {} {}\n", refusal.name, refusal.reason);
+    return lines;
 }
 
 }  // namespace
@@ -23,7 +36,7 @@ nlohmann::json to_json(const StageCalibration& stage) {
     json rigs = json::array(), ties = json::array(), rejected = json::array();
     for (const StageCalibration::Rig& rig : stage.rigs) {
         rigs.push_back({{"name", rig.name},
-                        {"world_from_left", rows_of(rig.calibration.world_from_left)},
+                        {"world_from_left", json_rows(rig.calibration.world_from_left)},
                         {"translation_sigma_m", rig.translation_sigma_m},
                         {"rotation_sigma_deg", rig.rotation_sigma_deg()},
                         {"rms_px", rig.rms_px},
@@ -43,7 +56,7 @@ nlohmann::json to_json(const StageCalibration& stage) {
         for (std::size_t i = 0; i < body.boards.size(); ++i) {
             json face = {{"board", body.boards[i] + 1}};
             if (!body.body_from_board.empty()) {
-                face["body_from_board"] = rows_of(body.body_from_board[i]);
+                face["body_from_board"] = json_rows(body.body_from_board[i]);
                 face["translation_sigma_m"] = body.translation_sigma_m[i];
             }
             faces.push_back(face);
@@ -104,8 +117,7 @@ std::string describe(const StageCalibration& stage) {
                                 body.name, body.boards.size(),
                                 1000 * *std::max_element(body.translation_sigma_m.begin(),
                                                          body.translation_sigma_m.end()));
-    for (const Refusal& refusal : stage.rejected)
-        text += fmt::format("not used: {} {}\n", refusal.name, refusal.reason);
+    text += not_used_lines(stage.rejected);
     for (const std::string& sentence : stage.advice) text += "would help: " + sentence + "\n";
     if (const std::string next = next_picture_sentence(stage); !next.empty()) text += next + "\n";
     return text;

@@ -1,31 +1,64 @@
 #include "common/av/video_reader.h"
 
+#include <cmath>
 #include <utility>
 
-#include "common/av/av_handles.h"
-#include "common/av/av_log.h"
+#include "common/av/av_input.h"
 #include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/image/exif_orientation.h"
 #include "common/image/image_file.h"
 
 namespace vantage {
+namespace {
+
+/// The display matrix of a video, as a phone writes it; null if there is none.
+const std::int32_t* display_matrix_of(const AVStream& stream) {
+#if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(60, 31, 102)
+    const AVPacketSideData* data =
+        av_packet_side_data_get(stream.codecpar->coded_side_data,
+                                stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
+    return data ? reinterpret_cast<const std::int32_t*>(data->data) : nullptr;
+#else
+    return reinterpret_cast<const std::int32_t*>(
+        av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr));
+#endif
+}
+
+/// How players show the video, as a code of EXIF; 1 where they show it as it is stored.
+int stated_orientation(const AVStream& stream) {
+    const std::int32_t* matrix = display_matrix_of(stream);
+    if (!matrix) return 1;
+    // The shown x is a * x + c * y, and the shown y is b * x + d * y.
+    const std::int32_t a = matrix[0], b = matrix[1], c = matrix[3], d = matrix[4];
+    if (std::abs(static_cast<double>(a)) >= std::abs(static_cast<double>(b)))
+        return a >= 0 ? (d >= 0 ? 1 : 4) : (d >= 0 ? 2 : 3);
+    return b >= 0 ? (c >= 0 ? 5 : 6) : (c >= 0 ? 8 : 7);
+}
+
+}  // namespace
 
 struct VideoReader::Impl {
     explicit Impl(const std::string& path)
         : path_(path), frame_(av_frame_alloc()), packet_(av_packet_alloc()) {
-        AVFormatContext* format = nullptr;
-        if (const int code = avformat_open_input(&format, path.c_str(), nullptr, nullptr); code < 0)
+        int code = 0;
+        format_ = open_av_input(path, code);
+        if (!format_)
             fail("{} is neither a picture nor a video that can be read: {}", path, av_reason(code));
-        format_.reset(format);
-        if (const int code = avformat_find_stream_info(format, nullptr); code < 0)
-            fail("{} cannot be read as a video: {}", path, av_reason(code));
         const AVCodec* decoder = nullptr;
-        stream_ = av_find_best_stream(format, AVMEDIA_TYPE_VIDEO, -1, -1, &decoder, 0);
+        stream_ = find_av_stream(*format_, AVMEDIA_TYPE_VIDEO, &decoder);
         if (stream_ < 0 || !decoder) fail("{} holds no video that can be decoded", path);
-        codec_.reset(avcodec_alloc_context3(decoder));
-        avcodec_parameters_to_context(codec_.get(), format->streams[stream_]->codecpar);
-        codec_->thread_count = 0;  // one thread for each processor
-        if (const int code = avcodec_open2(codec_.get(), decoder, nullptr); code < 0)
-            fail("the video of {} cannot be decoded: {}", path, av_reason(code));
+        constexpr int thread_for_each_processor = 0;
+        const AVStream& stream = *format_->streams[stream_];
+        code = open_av_decoder(stream, *decoder, thread_for_each_processor, codec_);
+        if (code < 0) fail("the video of {} cannot be decoded: {}", path, av_reason(code));
+        if (const int orientation = stated_orientation(stream); orientation != 1)
+            log_warning_once(
+                fmt::format("video orientation {}", orientation),
+                fmt::format("{} states that players show it {}; Vantage takes the frames as they "
+                            "are stored, here and in other videos like it. Turn the video itself "
+                            "if it should stand upright (ffmpeg -i FILE OUT turns the frames)",
+                            path, orientation_in_words(orientation)));
     }
 
     /// Decodes the next frame to frame_. Returns false at the end.
@@ -117,11 +150,7 @@ struct VideoReader::Impl {
     bool has_pending_ = false;  ///< frame_ is the next one
 };
 
-VideoReader::VideoReader(const std::string& path) {
-    // Our own sentence reports errors, so FFmpeg's log is kept for it.
-    keep_av_log();
-    impl_ = std::make_unique<Impl>(path);
-}
+VideoReader::VideoReader(const std::string& path) : impl_(std::make_unique<Impl>(path)) {}
 
 VideoReader::~VideoReader() = default;
 

@@ -1,5 +1,7 @@
 #include "common/base/library_log.h"
 
+#include <algorithm>
+
 namespace vantage {
 namespace {
 
@@ -32,6 +34,8 @@ LibraryLog::LibraryLog(std::string library, LogLevel level)
 void LibraryLog::note(std::string message) {
     while (!message.empty() && (message.back() == '\n' || message.back() == ' '))
         message.pop_back();
+    // libsrt leaves the separator of a prefix that was switched off.
+    message.erase(0, std::min(message.find_first_not_of(": "), message.size()));
     if (message.empty()) return;
     const std::uint64_t all = count_message(library_);
     const std::lock_guard lock(mutex_);

@@ -29,10 +29,20 @@ void read_source(TomlTable& table, RigConfig::Source& source) {
                      "names one side only: name the other camera's pictures with 'right', or say "
                      "side_by_side = true where each picture holds the left side in its left half "
                      "and the right side in its right half");
-    table.read("first", source.first, {0});
-    table.read("loop", source.loop);
     table.read("left_device", source.left_device);
     table.read("right_device", source.right_device);
+    const bool has_cameras = source.kind == "v4l2" || source.kind == "libcamera";
+    if (has_cameras && source.side_by_side && !source.right_device.empty())
+        table.refuse("side_by_side",
+                     "means that 'left_device' delivers both sides: leave 'right_device' out");
+    if (has_cameras && !source.left_device.empty() && source.right_device.empty() &&
+        !source.side_by_side)
+        table.refuse("left_device",
+                     "names one camera only: name the other one with 'right_device', or say "
+                     "side_by_side = true if each of its pictures holds the left side in its left "
+                     "half and the right side in its right half");
+    table.read("first", source.first, {0});
+    table.read("loop", source.loop);
     table.read("pixel_format", source.pixel_format);
     if (!source.pixel_format.empty() && source.pixel_format.size() != 4)
         table.refuse("pixel_format", "must be a code of four characters such as 'GREY' or 'MJPG'");

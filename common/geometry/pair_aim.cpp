@@ -92,6 +92,16 @@ double shared_view(const StereoCalibration& c, double distance_m) {
     return std::max(0.0, left.shared(right).width()) / std::max(left.width(), right.width());
 }
 
+double kept_view(const StereoCalibration& c, double distance_m) {
+    const double shift = c.rectified.baseline_m / distance_m;
+    const auto shown = [&](double cx_px) { return Span{-cx_px, c.rectified.width_px - 1 - cx_px}; };
+    const double f = c.rectified.f_px;
+    const Span seen = left_edges(c).inner_x.shared(right_edges(c).inner_x.moved(shift));
+    const Span left = shown(c.rectified.cx_left_px), right = shown(c.rectified.cx_right_px);
+    const Span kept = Span{f * seen.low, f * seen.high}.shared(left).shared(right.moved(f * shift));
+    return seen.width() > 0 ? std::max(0.0, kept.width()) / (f * seen.width()) : 1;
+}
+
 double farthest_m(const RectifiedStereo& r) {
     return r.doffs_px() > 0 ? r.f_px * r.baseline_m / r.doffs_px() : infinity;
 }

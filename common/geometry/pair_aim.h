@@ -21,6 +21,10 @@ PairAim aim_of(const StereoCalibration& calibration);
 /// this distance; the distance may be infinite. Precondition: the rectification is computed.
 double shared_view(const StereoCalibration& calibration, double distance_m);
 
+/// Share of what both cameras see at this distance, along the middle row, that the rectified
+/// images keep. Precondition: the rectification is computed.
+double kept_view(const StereoCalibration& calibration, double distance_m);
+
 /// Distance at which the disparity is 0, which is the largest that can be measured. Infinite if
 /// both sides have one principal point.
 double farthest_m(const RectifiedStereo& rectified);

@@ -7,16 +7,9 @@
 
 namespace vantage {
 
-cv::Mat2f make_rectification_map(const StereoCalibration& calibration, Side side) {
-    const bool is_left = side == Side::left;
-    const CameraModel& camera = is_left ? calibration.left : calibration.right;
-    const Eigen::Matrix3d& rotation =
-        is_left ? calibration.rectified_from_left : calibration.rectified_from_right;
-    const RectifiedStereo& rectified = calibration.rectified;
-    const cv::Matx33d new_K(rectified.f_px, 0,
-                            is_left ? rectified.cx_left_px : rectified.cx_right_px, 0,
-                            rectified.f_px, rectified.cy_px, 0, 0, 1);
-    const cv::Size size(rectified.width_px, rectified.height_px);
+cv::Mat2f make_undistortion_map(const CameraModel& camera, const Eigen::Matrix3d& rotation,
+                                const Eigen::Matrix3d& K, cv::Size size) {
+    const cv::Matx33d new_K = to_cv(K);
     // OpenCV's model has no skew: it gets unit intrinsics, and the camera matrix with skew is
     // applied to its result.
     const cv::Matx33d unit = cv::Matx33d::eye();
@@ -36,6 +29,17 @@ cv::Mat2f make_rectification_map(const StereoCalibration& calibration, Side side
         p[1] = static_cast<float>(camera.fy_px * v + camera.cy_px);
     }
     return positions;
+}
+
+cv::Mat2f make_rectification_map(const StereoCalibration& calibration, Side side) {
+    const bool is_left = side == Side::left;
+    const RectifiedStereo& rectified = calibration.rectified;
+    Eigen::Matrix3d K = rectified.K_left();
+    if (!is_left) K(0, 2) = rectified.cx_right_px;
+    return make_undistortion_map(
+        is_left ? calibration.left : calibration.right,
+        is_left ? calibration.rectified_from_left : calibration.rectified_from_right, K,
+        {rectified.width_px, rectified.height_px});
 }
 
 bool is_identity(const StereoCalibration& calibration, Side side) {

@@ -8,7 +8,12 @@ namespace vantage {
 
 enum class Side { left, right };
 
-/// The position in the raw image (x, y in px, pixel centres at integers) of every rectified pixel
+/// The position in the raw image (x, y in px, pixel centres at integers) of every pixel of an ideal
+/// camera in the same place, with this rotation, matrix and size.
+cv::Mat2f make_undistortion_map(const CameraModel& camera, const Eigen::Matrix3d& ideal_from_camera,
+                                const Eigen::Matrix3d& K, cv::Size size);
+
+/// The position in the raw image of every rectified pixel
 /// of one side, for any lens model. Size: rectified.height_px x rectified.width_px.
 cv::Mat2f make_rectification_map(const StereoCalibration& calibration, Side side);
 

@@ -32,10 +32,11 @@ std::string trouble_of_pulses(const RigStatus& rig) {
 }  // namespace
 
 std::string clock_text(const RigStatus& rig) {
-    if (rig.same_clock) return "this computer's clock";
     const RigSync& sync = rig.sync;
     std::string text;
-    if (sync.disciplined)
+    if (rig.same_clock)
+        text = "this computer's clock";
+    else if (sync.disciplined)
         text = fmt::format("PTP {}, offset {:.0f} ns, path delay {:.0f} ns", sync.ptp_state,
                            sync.ptp_offset_ns, sync.ptp_path_delay_ns);
     else if (sync.ptp_state.empty())

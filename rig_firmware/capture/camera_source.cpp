@@ -77,17 +77,12 @@ class CameraSource final : public StereoSource {
         if (config_.left_device == config_.right_device)
             fail(
                 "'left_device' and 'right_device' are both {}: name two cameras, or leave "
-                "'right_device' out for one that delivers both pictures side by side",
+                "'right_device' out and say side_by_side = true for one that delivers both "
+                "pictures side by side",
                 config_.left_device);
         open();
         for (const auto& camera : cameras_)
             for (std::string& line : camera->report()) report_.push_back(std::move(line));
-        if (config_.right_device.empty() && !config_.side_by_side)
-            report_.push_back(fmt::format(
-                "{} is the only camera, and each of its pictures is cut in the middle into the "
-                "left and the right side; if it sees one side only, name the other camera with "
-                "'right_device', else say side_by_side = true in [source]",
-                config_.left_device));
         if (config.trigger.role == "free")
             report_.push_back(
                 "the cameras are not triggered: pictures are joined by their time stamps, and "

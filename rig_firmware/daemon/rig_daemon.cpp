@@ -88,22 +88,30 @@ RigFrame raw_pair_of(const StereoFrame& frame, const std::string& calibration_id
     return pair;
 }
 
-/// Lines of the start-up report, shared between threads. The publisher's thread reads them and
+/// Notes for the support report, shared between threads. The publisher's thread reads them and
 /// outlives the rest of the daemon. Thread-safe.
-class SharedLines {
+class SharedNotes {
   public:
-    void set(std::vector<std::string> lines) {
+    void set_at_start(std::vector<std::string> lines) {
         const std::lock_guard lock(mutex_);
-        lines_ = std::move(lines);
+        notes_.at_start = std::move(lines);
     }
-    std::vector<std::string> lines() const {
+    /// Keeps the last steps only.
+    void add_clock_step(std::string line) {
+        constexpr std::size_t most_steps = 20;
         const std::lock_guard lock(mutex_);
-        return lines_;
+        if (notes_.clock_steps.size() == most_steps)
+            notes_.clock_steps.erase(notes_.clock_steps.begin());
+        notes_.clock_steps.push_back(std::move(line));
+    }
+    RigNotes notes() const {
+        const std::lock_guard lock(mutex_);
+        return notes_;
     }
 
   private:
     mutable std::mutex mutex_;
-    std::vector<std::string> lines_;
+    RigNotes notes_;
 };
 
 }  // namespace
@@ -192,7 +200,7 @@ struct RigDaemon::Impl {
     RigSync sync;
     PercentileRecorder capture_ms, rectify_ms, match_ms, pack_ms, latency_ms;
     std::vector<std::string> source_report, gpu_report;
-    const std::shared_ptr<SharedLines> said_at_start = std::make_shared<SharedLines>();
+    const std::shared_ptr<SharedNotes> notes = std::make_shared<SharedNotes>();
     std::string starting;  ///< see DaemonStatus
     std::uint64_t gpu_restarts = 0;
     std::exception_ptr failure;
@@ -332,10 +340,14 @@ void RigDaemon::Impl::keep_in_step(const RigHealth& facts) {
         const std::uint64_t steps = time_of_day.state().steps;
         time_of_day.observe(pair.monotonic, pair.tai);
         if (time_of_day.state().steps != steps) {
+            const double step_ms = time_of_day.state().last_step_ns / 1e6;
             log_warning(
                 "{}: this computer's clock was set by {:+.1f} ms; frames before and after it are "
                 "counted by different clocks",
-                config.name, time_of_day.state().last_step_ns / 1e6);
+                config.name, step_ms);
+            notes->add_clock_step(fmt::format(
+                "by {:+.1f} ms, {:.0f} s after this computer started", step_ms,
+                std::chrono::duration<double>(MonotonicClock::now().time_since_epoch()).count()));
             // A first pulse that was refused with the old clock may be possible with the new one.
             refused_pulse = 0;
         }
@@ -460,7 +472,7 @@ void RigDaemon::Impl::set_up_gpu(std::optional<GpuStage>& gpu, const StereoCalib
         gpu_report = lines;
         starting.clear();
     }
-    said_at_start->set(report());
+    notes->set_at_start(report());
 }
 
 void RigDaemon::Impl::note_compiling(const ProgramProgress& progress) {
@@ -544,10 +556,10 @@ RigDaemon::RigDaemon(const RigConfig& config, std::uint64_t frame_limit)
     : impl_(std::make_unique<Impl>(config, frame_limit)) {
     try {
         impl_->start();
-        impl_->said_at_start->set(report());
+        impl_->notes->set_at_start(report());
         impl_->publisher.serve_reports(
-            [config, said = impl_->said_at_start](const std::atomic<bool>& stopping) {
-                return rig_report(config, said->lines(), stopping);
+            [config, notes = impl_->notes](const std::atomic<bool>& stopping) {
+                return rig_report(config, notes->notes(), stopping);
             });
     } catch (...) {
         impl_->stop();

@@ -62,7 +62,7 @@ nlohmann::json probe(const std::atomic<bool>& stopping) {
 
 }  // namespace
 
-std::string rig_report(const RigConfig& config, const std::vector<std::string>& said_at_start,
+std::string rig_report(const RigConfig& config, const RigNotes& notes,
                        const std::atomic<bool>& stopping) {
     nlohmann::ordered_json report{
         {"rig", config.name}, {"version", version()}, {"computer", computer_words()}};
@@ -84,7 +84,8 @@ std::string rig_report(const RigConfig& config, const std::vector<std::string>& 
     for (const auto& [library, count] : LibraryLog::counts())
         report["library_messages"][library] = count;
     add("addresses", [] { return own_addresses(); });
-    for (const std::string& line : said_at_start) report["start"].push_back(without_secrets(line));
+    report["clock_steps"] = notes.clock_steps;
+    for (const std::string& line : notes.at_start) report["start"].push_back(without_secrets(line));
     for (const std::string& line : recent_log_lines())
         report["log"].push_back(without_secrets(line));
     add("probe", [&] { return probe(stopping); });

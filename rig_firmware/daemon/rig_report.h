@@ -8,11 +8,17 @@
 
 namespace vantage {
 
-/// Support report of a rig, as JSON: version, configuration, start-up report, last log lines,
-/// kernel and system, and the output of `vantage-rig probe`. The probe runs in a child process for
-/// at most 20 s, and is skipped once `stopping` is true. Secrets are removed (without_secrets). The
-/// report has at most max_report_bytes.
-std::string rig_report(const RigConfig& config, const std::vector<std::string>& said_at_start,
+/// What the daemon told about itself, for its support report.
+struct RigNotes {
+    std::vector<std::string> at_start;     ///< lines of the start-up report
+    std::vector<std::string> clock_steps;  ///< the last steps of this computer's clock
+};
+
+/// Support report of a rig, as JSON: version, configuration, notes, last log lines, last refused
+/// inputs, kernel and system, and the output of `vantage-rig probe`. The probe runs in a child
+/// process for at most 20 s, and is skipped once `stopping` is true. Secrets are removed
+/// (without_secrets). The report has at most max_report_bytes.
+std::string rig_report(const RigConfig& config, const RigNotes& notes,
                        const std::atomic<bool>& stopping);
 
 }  // namespace vantage

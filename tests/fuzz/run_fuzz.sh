@@ -23,6 +23,12 @@ fi
 corpus=build/fuzz/corpus found=build/fuzz/found
 mkdir -p "$corpus" "$found"
 build/fuzz/bin/make_seeds "$corpus" || exit 1
+# Debian's own interpreter has Debian's modules (python3-opencv, python3-pil).
+if [ -x /usr/bin/python3 ]; then
+  /usr/bin/python3 tests/fuzz/seeds/real_seeds.py "$corpus" || exit 1
+else
+  echo "SKIPPED: inputs of other programs: there is no /usr/bin/python3"
+fi
 if [ ${#targets[@]} -eq 0 ]; then
   for program in build/fuzz/bin/*_fuzz; do targets+=("$(basename "$program" _fuzz)"); done
 fi

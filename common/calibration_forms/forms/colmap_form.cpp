@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "common/calibration_forms/colmap_images.h"
 #include "common/calibration_forms/form_tools.h"
 
 namespace vantage {
@@ -87,34 +88,16 @@ const FormFile& named(std::span<const FormFile> files, const char* name) {
     fail("COLMAP's model needs {} too: give both cameras.txt and images.txt", name);
 }
 
-/// Triples of numbers: a place in the picture and the number of a point.
-bool are_points(const std::string& line) {
-    std::istringstream words(line);
-    std::size_t count = 0;
-    for (std::string word; words >> word; ++count)
-        if (!scalar_tree(word).is_number()) return false;
-    return count % 3 == 0;
-}
-
-FormCamera read_image(const std::string& line, const std::map<int, CameraModel>& cameras,
-                      const std::string& where) {
-    std::istringstream words(line);
-    int id = 0, camera = 0;
-    Eigen::Quaterniond q;
-    Eigen::Vector3d t;
-    FormCamera image;
-    if (!(words >> id >> q.w() >> q.x() >> q.y() >> q.z() >> t.x() >> t.y() >> t.z() >> camera >>
-          std::ws) ||
-        !std::getline(words, image.name) || !t.allFinite() || !(q.norm() > 0.5 && q.norm() < 2))
-        fail("{}: this is no image of COLMAP", where);
-    image.name.erase(image.name.find_last_not_of(" \t\r") + 1);
-    const auto model = cameras.find(camera);
-    if (model == cameras.end()) fail("{}: camera {} is not in cameras.txt", where, camera);
-    image.model = model->second;
-    image.camera_from_frame = Pose::Identity();
-    image.camera_from_frame->linear() = q.normalized().toRotationMatrix();
-    image.camera_from_frame->translation() = t;
-    return image;
+FormCamera form_camera_of(const ColmapImage& image, const std::map<int, CameraModel>& cameras,
+                          const std::filesystem::path& file) {
+    const auto model = cameras.find(image.camera);
+    if (model == cameras.end())
+        fail("{}:{}: camera {} is not in cameras.txt", file.string(), image.line, image.camera);
+    FormCamera camera;
+    camera.name = image.name;
+    camera.model = model->second;
+    camera.camera_from_frame = image.camera_from_world;
+    return camera;
 }
 
 FormCalibration read_colmap(std::span<const FormFile> files, const FormSettings&) {
@@ -129,8 +112,10 @@ FormCalibration read_colmap(std::span<const FormFile> files, const FormSettings&
     result.assumed = {"pixel centres at a half, as COLMAP defines them, moved to integers",
                       "cameras x right, y down, z forward"};
     result.left_out = {"points and the place of the cameras in COLMAP's world"};
-    for (const auto& [where, line] : content_lines(named(files, "images.txt")))
-        if (!are_points(line)) result.cameras.push_back(read_image(line, cameras, where));
+    const FormFile& file = named(files, "images.txt");
+    ColmapImages images(file.text, file.path);
+    while (const std::optional<ColmapImage> image = images.next())
+        result.cameras.push_back(form_camera_of(*image, cameras, file.path));
     return result;
 }
 

@@ -73,7 +73,7 @@ TEST(Probe, ARunWithoutRightsNamesTheRuleToo) {
     const auto start = [&](const std::string& kind, const std::string& device) {
         std::ofstream(config) << "version = 1\nname = \"rig\"\ncalibration = \"none\"\n[source]\n"
                               << "kind = \"" << kind << "\"\nwidth_px = 160\nheight_px = 180\n"
-                              << "left_device = \"" << device << "\"\n";
+                              << "left_device = \"" << device << "\"\nside_by_side = true\n";
         return run_as_nobody({"run", "--config", config});
     };
     for (const auto& [kind, device] :

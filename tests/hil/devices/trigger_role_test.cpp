@@ -43,7 +43,8 @@ class TriggerRole : public testing::Test {
     std::string parts(const std::string& role, const std::string& line) const {
         return "calibration = \"" + calibration_ +
                "\"\n[source]\nkind = \"v4l2\"\nrate_hz = 0.5\nwidth_px = 160\nheight_px = 180\n"
-               "left_device = \"/dev/video14\"\npixel_format = \"YUYV\"\nbuffers = \"copy\"\n"
+               "left_device = \"/dev/video14\"\nside_by_side = true\npixel_format = "
+               "\"YUYV\"\nbuffers = \"copy\"\n"
                "[source.controls]\n\"Timestamp Source\" = 1\n"
                "[match]\npreset = \"fast\"\ndisparities = 16\nsteady = false\n"
                "[trigger]\nrole = \"" +

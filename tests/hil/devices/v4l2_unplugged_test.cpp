@@ -36,7 +36,7 @@ TEST(V4l2Unplugged, CameraIsUsedAgainByTheSameDaemonWhenItIsBack) {
     save_calibration(calibration, ideal_rig(RigConfig{}, {160, 180}), {});
     RigProcess rig("calibration = \"" + calibration +
                    "\"\n[source]\nkind = \"v4l2\"\nrate_hz = 2\nwidth_px = 160\nheight_px = 180\n"
-                   "left_device = \"/dev/video14\"\npixel_format = \"NV12\"\n"
+                   "left_device = \"/dev/video14\"\nside_by_side = true\npixel_format = \"NV12\"\n"
                    "[match]\npreset = \"fast\"\ndisparities = 16\nsteady = false\n");
     const auto before = rig.next_frame();
     set_bound(false);

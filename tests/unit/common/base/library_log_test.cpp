@@ -22,6 +22,15 @@ TEST(LibraryLog, LimitsAndCountsTheMessagesOfALibrary) {
     EXPECT_EQ(counted, 400u);
 }
 
+TEST(LibraryLog, LeavesOutTheSeparatorOfAPrefixThatIsSwitchedOff) {
+    LibraryLog log("libother", LogLevel::warning);
+    testing::internal::CaptureStderr();
+    log.note(": KMREQ/rcv: (snd) Rx process failure - BADSECRET");
+    log.note(": ");
+    const std::string text = testing::internal::GetCapturedStderr();
+    EXPECT_NE(text.find("libother: KMREQ/rcv"), std::string::npos) << text;
+}
+
 TEST(RefusedInputs, KeepTheLastOfEachDecoder) {
     std::array<std::byte, 300> bytes{};
     bytes[0] = std::byte{0xfe};

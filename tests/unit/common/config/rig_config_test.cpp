@@ -233,5 +233,21 @@ TEST_F(RigConfigTest, OneSideIsNoRigUnlessBothAreInItsPictures) {
     EXPECT_NE(refusal("left = \"a.mp4\"\nright = \"b.mp4\"\nside_by_side = true\n"), "");
 }
 
+TEST_F(RigConfigTest, OneCameraIsNoRigUnlessItDeliversBothSides) {
+    for (const std::string kind : {"v4l2", "libcamera"}) {
+        const auto refusal = [&](const std::string& source) {
+            return thrown_sentence([&] {
+                load("version = 1\nname = \"a\"\n[source]\nkind = \"" + kind + "\"\n" + source);
+            });
+        };
+        EXPECT_THAT(refusal("left_device = \"/dev/video0\"\n"),
+                    testing::HasSubstr("say side_by_side = true"));
+        EXPECT_EQ(refusal("left_device = \"/dev/video0\"\nside_by_side = true\n"), "");
+        EXPECT_EQ(refusal("left_device = \"a\"\nright_device = \"b\"\n"), "");
+        EXPECT_THAT(refusal("left_device = \"a\"\nright_device = \"b\"\nside_by_side = true\n"),
+                    testing::HasSubstr("leave 'right_device' out"));
+    }
+}
+
 }  // namespace
 }  // namespace vantage

@@ -73,9 +73,9 @@ class CameraSourceTest : public testing::Test {
         (void)source_->next(1ms);
     }
 
-    void open(bool side_by_side = false) {
+    void open() {
         RigConfig config;
-        config.source.side_by_side = side_by_side;
+        config.source.side_by_side = true;
         config.source.kind = "v4l2";
         config.source.left_device = "both";
         config.source.width_px = asked_width;
@@ -92,17 +92,6 @@ class CameraSourceTest : public testing::Test {
     FakeTrigger trigger_;
     std::unique_ptr<StereoSource> source_;
 };
-
-TEST_F(CameraSourceTest, SaysThatTheOnlyCameraIsCutUnlessThatIsStated) {
-    const auto says_so = [&] {
-        for (const std::string& line : source_->report())
-            if (line.find("cut in the middle") != std::string::npos) return true;
-        return false;
-    };
-    EXPECT_TRUE(says_so());
-    open(true);
-    EXPECT_FALSE(says_so());
-}
 
 TEST_F(CameraSourceTest, LeavesCamerasOpenThatWaitForTheFirstPulse) {
     EXPECT_FALSE(source_->next(longer_than_any_silence));

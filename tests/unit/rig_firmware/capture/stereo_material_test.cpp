@@ -219,6 +219,32 @@ TEST_F(StereoMaterialTest, PlaysAVideoPictureByPicture) {
         EXPECT_NEAR(grey(looping->pair_of(i)->left), 40 + 50 * static_cast<int>(i % 3), 4);
 }
 
+TEST_F(StereoMaterialTest, NamesAVideoThatPlayersShowTurned) {
+    const std::string name = at("take: 1.mp4");
+    {
+        cv::VideoWriter writer(name, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), 25, {64, 48});
+        if (!writer.isOpened()) GTEST_SKIP() << "SKIPPED: OpenCV writes no MP4";
+        for (int i = 0; i < 3; ++i) writer.write(cv::Mat3b(48, 64, cv::Vec3b::all(90)));
+    }
+    const auto log_of_opening = [&] {
+        testing::internal::CaptureStderr();
+        EXPECT_EQ(open_material({.left = name, .right = name})->size(), cv::Size(64, 48));
+        return testing::internal::GetCapturedStderr();
+    };
+    EXPECT_EQ(log_of_opening(), "");
+    // The matrix of the track's header, as a phone that is held upright writes it.
+    std::fstream file(name, std::ios::binary | std::ios::in | std::ios::out);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    const std::size_t header = bytes.find("tkhd");
+    ASSERT_NE(header, std::string::npos);
+    constexpr std::size_t to_matrix = 44;
+    const char clockwise[] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, char(0xff), char(0xff), 0, 0};
+    file.seekp(static_cast<std::streamoff>(header + to_matrix));
+    file.write(clockwise, sizeof clockwise);
+    file.close();
+    EXPECT_NE(log_of_opening().find("turned by 90 degrees clockwise"), std::string::npos);
+}
+
 TEST_F(StereoMaterialTest, PlaysTwoVideosSideBySideAndEndsARoundWithTheShorterOne) {
     const auto film = [&](const std::string& name, int pictures, int base, cv::Size size) {
         cv::VideoWriter writer(at(name), cv::CAP_OPENCV_MJPEG,
