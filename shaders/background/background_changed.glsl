@@ -1,4 +1,4 @@
-// Whether a rig's background looks different from when its model was made. A matcher's depth of a plain surface wavers
+// Whether a rig's background looks different from when its model was made. A matcher's depth of a plain surface varies
 // while nothing changes, so that a change is one of depth and of colour.
 #include "colour_difference.glsl"
 #include "tolerances.glsl"
