@@ -15,7 +15,7 @@ constexpr int max_misfits = 3;
 constexpr double far_off = 2;
 /// The level rises if the next better one is expected to take less than this share of its time. For
 /// a level that was not tried the expectation is the present time multiplied by `untried_ratio`.
-constexpr double room = 0.75, untried_ratio = 1.4;
+constexpr double room = 0.75, untried_ratio = 1.6;
 /// Wait before the level rises: before the first fall, after it, and at most.
 constexpr double min_wait_s = 0.5, first_wait_s = 2, max_wait_s = 60;
 /// Rising was a mistake if the level has to fall within this time.
@@ -25,6 +25,8 @@ constexpr double mean_share = 0.2;
 /// Shares of a tick for rendering and of the time between two pulses for preparing. Rendering has
 /// priority over preparing and so delays instants. The time of preparing includes these delays.
 constexpr double full_rendering_share = 0.65, preparing_share = 0.7;
+/// Share of the time between two pulses for the moments that are prepared in slow motion.
+constexpr double moments_share = 0.9;
 /// Frames may take this much more of the time than the share by which their level is chosen.
 constexpr double budget_margin = 0.1;
 /// If the cheapest instants do not fit, the share of rendering is reduced by a factor at every
@@ -157,7 +159,7 @@ int Governor::moments_a_pulse(double speed) const {
     if (pulses == 0 || pulses >= 1 || past_ms_.empty()) return 1;
     constexpr double most_moments = 100;
     const double most = std::min(most_moments, 1 / pulses + 1e-9);
-    const double fitting = preparing_share * instant_ms_ / pulses /
+    const double fitting = moments_share * instant_ms_ / pulses /
                            *std::max_element(past_ms_.begin(), past_ms_.end());
     return std::max(1, static_cast<int>(std::min(most, fitting)));
 }

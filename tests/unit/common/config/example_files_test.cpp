@@ -38,6 +38,16 @@ std::vector<std::string> undocumented(const std::filesystem::path& example,
     return missing;
 }
 
+TEST(ExampleFiles, RigsOfRealBoardsLoad) {
+    const auto folder = source_folder() / "hw_config/rigs";
+    for (const char* board : {"pi4.toml", "pi5.toml", "cm5.toml"}) {
+        const RigConfig rig = load_rig_config(folder / board);
+        EXPECT_EQ(rig.source.kind, "libcamera") << board;
+        EXPECT_EQ(rig.match.preset, "auto") << board;
+        EXPECT_FALSE(rig.stream.key_file.empty()) << board << " listens beyond loopback";
+    }
+}
+
 TEST(ExampleFiles, LoadAndShowTheDefaults) {
     const RigConfig rig = load_rig_config(source_folder() / "hw_config/rig.toml");
     const RigConfig defaults;

@@ -174,9 +174,9 @@ TEST(Governor, LowersBothLevelsIndependently) {
     for (int i = 0; i < 250; ++i) tick(1, 1);
     ASSERT_EQ(governor.render().rank, 0);
     ASSERT_EQ(governor.prepare().rank, 0);
-    for (int i = 0; i < 3; ++i) tick(17, 30);
+    for (int i = 0; i < 3; ++i) tick(17, 27);
     EXPECT_EQ(governor.render().rank, 1) << "13 of 20 ms are available";
-    EXPECT_EQ(governor.prepare().rank, 0) << "36 of 40 ms are available";
+    EXPECT_EQ(governor.prepare().rank, 0) << "28 of 40 ms are available";
     for (int i = 0; i < 3; ++i) tick(5, 39);
     EXPECT_EQ(governor.prepare().rank, 1);
 }
@@ -193,7 +193,7 @@ TEST(Governor, ReducesRenderingIfTheCheapestInstantsAreLate) {
             governor.saw_prepare(governor.prepare().rank, prepare_ms, now);
         }
     };
-    run_for(100, 12.1, 150);
+    run_for(100, 12.1, 120);
     const int beside_instants = governor.render().rank;
     run_for(20, 12.1, 400);
     ASSERT_EQ(governor.prepare().rank, static_cast<int>(prepare_levels().size()) - 1);
@@ -229,12 +229,12 @@ TEST(Governor, PreparesTheTargetOfAJumpAtACheapLevel) {
     for (int i = 0; i < 100; ++i) work(10);
     ASSERT_EQ(governor.prepare().rank, 0);
     EXPECT_EQ(governor.prepare_sought().rank, 0);
-    for (int i = 0; i < 100; ++i) work(150);
-    EXPECT_EQ(governor.prepare().rank, 0) << "180 of 200 ms are available";
+    for (int i = 0; i < 100; ++i) work(130);
+    EXPECT_EQ(governor.prepare().rank, 0) << "140 of 200 ms are available";
     EXPECT_EQ(governor.prepare_sought().rank, 1) << "this level takes 10 ms";
 
     Governor fixed(25, 5, {1});
-    for (int i = 0; i < 10; ++i) fixed.saw_prepare(1, 150, now);
+    for (int i = 0; i < 10; ++i) fixed.saw_prepare(1, 130, now);
     EXPECT_EQ(fixed.prepare_sought().rank, 1) << "the requested level";
 }
 
