@@ -159,8 +159,8 @@ int Governor::moments_a_pulse(double speed) const {
     if (pulses == 0 || pulses >= 1 || past_ms_.empty()) return 1;
     constexpr double most_moments = 100;
     const double most = std::min(most_moments, 1 / pulses + 1e-9);
-    const double fitting = moments_share * instant_ms_ / pulses /
-                           *std::max_element(past_ms_.begin(), past_ms_.end());
+    const double fitting =
+        moments_share * instant_ms_ / pulses / *std::max_element(past_ms_.begin(), past_ms_.end());
     return std::max(1, static_cast<int>(std::min(most, fitting)));
 }
 
