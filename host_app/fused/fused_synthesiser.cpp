@@ -90,7 +90,7 @@ class FusedRenderer final : public ViewRenderer {
                 origins_->rigs.push_back(layer.surface->camera().name);
         }
         depth_m_ = &picture_.depth_m();
-        return picture_.colour();
+        return impulses_.filter(picture_.colour(), *depth_m_);
     }
 
     /// Draws the rigs' foregrounds over a picture of the background and removes impulses.

@@ -466,7 +466,8 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
 }
 
 void StagedPreparer::begin_refining(const VirtualView& target) {
-    // The rig whose model has been due for longest; one without a model is due at once.
+    // The rig whose model has been due for longest; one without a model is due at once, and those
+    // in view are refined first.
     const auto due_s = [](const RigHistory& rig) {
         if (!rig.model()) return -1.0;
         return rig.model()->made_s + (rig.model()->rank == 0 ? rig.model()->rest_s : 0);
@@ -475,8 +476,10 @@ void StagedPreparer::begin_refining(const VirtualView& target) {
     const auto look_at = [&](RigHistory* rig) {
         if (due_s(*rig) <= now_s_ && (!oldest || due_s(*rig) < due_s(*oldest))) oldest = rig;
     };
-    for (RigHistory* rig : most_useful(rigs_.shown(), target, most_drawn_rigs)) look_at(rig);
-    for (RigHistory* rig : rigs_.shown()) look_at(rig);
+    for (RigHistory* rig : most_useful(rigs_.shown(), target, level_.rigs))
+        if (!rig->model() || rig->model()->rank > 0) look_at(rig);
+    if (!oldest)
+        for (RigHistory* rig : rigs_.shown()) look_at(rig);
     if (!oldest || (oldest->model() && now_s_ - improved_s_ < improvement_period_s)) return;
     learn(uploaded_);
     refinement_pass_.emplace();
