@@ -18,28 +18,18 @@ constexpr double nearest_plane_m = 0.05;
 BakedPainter::BakedPainter(const ShaderLibrary& library)
     : program_(Program::render(library, "probe_tiles.vert", "probe_tiles.frag")) {}
 
-void BakedPainter::resize(cv::Size size) {
-    if (colour_ && colour_->size() == size) return;
-    target_.reset();
-    colour_.emplace(TextureFormat::rgba8, size.width, size.height, Filter::linear);
-    depth_m_.emplace(TextureFormat::r32f, size.width, size.height);
-    depth_test_.emplace(TextureFormat::depth24, size.width, size.height);
-    target_.emplace(std::initializer_list<const Texture*>{&*colour_, &*depth_m_}, &*depth_test_);
-}
-
-void BakedPainter::draw(const BakedBackground& background, const VirtualView& view) {
-    resize({view.width_px, view.height_px});
+const DepthPicture& BakedPainter::draw(const BakedBackground& background, const VirtualView& view) {
+    const cv::Size size(view.width_px, view.height_px);
+    depth_test_.resize(size);
+    picture_.resize(size, false, &depth_test_.texture());
     std::vector<const BackgroundProbe*> nearest;
     for (const auto& probe : background.probes) nearest.push_back(probe.get());
     std::sort(nearest.begin(), nearest.end(), [&](const auto* a, const auto* b) {
         return way_m(a->view(), view) < way_m(b->view(), view);
     });
     if (nearest.size() > most_probes) nearest.resize(most_probes);
-    target_->bind();
-    const float nothing[4] = {0, 0, 0, 0};
+    picture_.clear();
     glDepthMask(GL_TRUE);
-    glClearBufferfv(GL_COLOR, 0, nothing);
-    glClearBufferfv(GL_COLOR, 1, nothing);
     glClearDepthf(1.0f);
     glClear(GL_DEPTH_BUFFER_BIT);
     glEnable(GL_DEPTH_TEST);
@@ -56,6 +46,7 @@ void BakedPainter::draw(const BakedBackground& background, const VirtualView& vi
     // What no probe has seen shows the nearest probe's backdrop.
     if (!nearest.empty()) draw(*nearest.front(), nearest.front()->backdrop(), view, 1);
     glDisable(GL_DEPTH_TEST);
+    return picture_;
 }
 
 void BakedPainter::draw(const BackgroundProbe& probe, const BackgroundProbe::Part& part,

@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "common/av/av_handles.h"
-#include "common/av/av_log.h"
+#include "common/av/av_input.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/time/pulse_grid.h"
@@ -236,12 +235,9 @@ std::int64_t EditEvent::source_frames() const {
 }
 
 EditFilm read_edit_film(const std::filesystem::path& file) {
-    keep_av_log();
-    AVFormatContext* opened = nullptr;
-    int code = avformat_open_input(&opened, ("file:" + file.string()).c_str(), nullptr, nullptr);
-    const AvInputPtr input(opened);
-    if (code >= 0) code = avformat_find_stream_info(input.get(), nullptr);
-    if (code >= 0) code = av_find_best_stream(input.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
+    int code = 0;
+    const AvInputPtr input = open_av_input(file, code);
+    if (input) code = find_av_stream(*input, AVMEDIA_TYPE_VIDEO);
     if (code < 0) fail("{} cannot be read as a film: {}", file.string(), av_reason(code));
     const AVStream& pictures = *input->streams[code];
     const double measured_hz =

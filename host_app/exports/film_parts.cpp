@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 
-#include "common/av/av_log.h"
+#include "common/av/av_input.h"
 #include "common/base/error.h"
 #include "common/base/time/pulse_grid.h"
 #include "host_app/output/media/film_file.h"
@@ -21,14 +21,12 @@ namespace {
 class PartReader {
   public:
     explicit PartReader(const std::filesystem::path& file) : file_(file) {
-        keep_av_log();
-        AVFormatContext* input = nullptr;
-        int code = avformat_open_input(&input, ("file:" + file.string()).c_str(), nullptr, nullptr);
+        int code = 0;
+        input_ = open_av_input(file, code);
+        if (!input_) refuse(code);
+        code = find_av_stream(*input_, AVMEDIA_TYPE_VIDEO);
         if (code < 0) refuse(code);
-        input_.reset(input);
-        code = av_find_best_stream(input, AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-        if (code < 0) refuse(code);
-        stream_ = input->streams[code];
+        stream_ = input_->streams[code];
     }
 
     const AVCodecParameters& pictures() const { return *stream_->codecpar; }

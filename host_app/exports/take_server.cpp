@@ -17,6 +17,7 @@
 #include "common/base/files/unique_fd.h"
 #include "common/base/time/time.h"
 #include "common/base/time/timecode.h"
+#include "common/geometry/json_rows.h"
 #include "common/take/format/frame_storage.h"
 #include "host_app/takes/take_show.h"
 
@@ -69,21 +70,6 @@ class SharedArrays {
 
 Answer place(std::size_t offset, const cv::Size& size) {
     return {{"offset", offset}, {"height", size.height}, {"width", size.width}};
-}
-
-Answer rows_of(const Eigen::Matrix3d& matrix) {
-    Answer rows = Answer::array();
-    for (int row = 0; row < 3; ++row)
-        rows.push_back({matrix(row, 0), matrix(row, 1), matrix(row, 2)});
-    return rows;
-}
-
-Answer rows_of(const Pose& pose) {
-    Answer rows = Answer::array();
-    for (int row = 0; row < 3; ++row)
-        rows.push_back({pose.matrix()(row, 0), pose.matrix()(row, 1), pose.matrix()(row, 2),
-                        pose.matrix()(row, 3)});
-    return rows;
 }
 
 /// Answers the requests of one connection.
@@ -179,10 +165,10 @@ class TakeServer {
                                      {"disparity", add(frame.disparity)},
                                      {"width", geometry.width_px},
                                      {"height", geometry.height_px},
-                                     {"K", rows_of(geometry.K_left())},
+                                     {"K", json_rows(geometry.K_left())},
                                      {"baseline_m", geometry.baseline_m},
                                      {"doffs_px", geometry.doffs_px()},
-                                     {"world_from_camera", rows_of(frame.world_from_camera)},
+                                     {"world_from_camera", json_rows(frame.world_from_camera)},
                                      {"calibration", frame.calibration_id},
                                      {"exposure_tai_ns", to_ns(frame.exposure)}});
         }

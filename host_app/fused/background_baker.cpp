@@ -178,7 +178,6 @@ void BackgroundBaker::take_over(const ProbeTiles& tiles) {
                        : first_probe_rest_s;
     probe.made = std::make_shared<const BackgroundProbe>(tiles);
     probe.made_s = divided_->begun_s;
-    probe.is_rough = divided_->is_rough;
     auto extra = std::make_shared<BakedExtra>();
     for (const Probe& one : probes_)
         if (one.made) extra->background.probes.push_back(one.made);

@@ -47,9 +47,8 @@ class BackgroundBaker {
     struct Probe {
         VirtualView view;
         std::shared_ptr<const BackgroundProbe> made;
-        double made_s = 0;     ///< when its baking began, on the preparer's clock
-        double rest_s = 0;     ///< time before it is baked again
-        bool is_rough = true;  ///< not all models were refined
+        double made_s = 0;  ///< when its baking began, on the preparer's clock
+        double rest_s = 0;  ///< time before it is baked again
     };
     struct ModelSurface {
         std::shared_ptr<const RigSurface> model, surface;
@@ -61,7 +60,7 @@ class BackgroundBaker {
         std::vector<std::shared_ptr<const RigSurface>> surfaces;  ///< of the first rigs so far
         std::size_t drawn = 0;                                    ///< of the surfaces
         double begun_s = 0;
-        bool is_rough = true;
+        bool is_rough = true;  ///< not all models are refined
     };
 
     void place_probes(std::span<RigHistory* const> rigs);

@@ -54,17 +54,17 @@ void FusedColour::draw_plainly(const RigLayers& layers, const Texture& fused_dep
     use(plain_, layers, fused_depth, notes_origins).draw(into.target());
 }
 
-void FusedColour::draw_on_baked(const RigLayers& layers, const Texture& baked_depth,
-                                const Texture& baked_colour, const DepthPicture& foreground,
-                                const DepthPicture& into, bool notes_origins) {
-    FullscreenPass& pass = use(on_baked_, layers, baked_depth, notes_origins);
+void FusedColour::draw_on_baked(const RigLayers& layers, const DepthPicture& baked,
+                                const DepthPicture& foreground, const DepthPicture& into,
+                                bool notes_origins) {
+    FullscreenPass& pass = use(on_baked_, layers, baked.depth_m(), notes_origins);
     Program& program = pass.use();
     int unit = layers.first_free_unit() + 1;
     const auto bind = [&](const char* name, const Texture& texture) {
         texture.bind(unit);
         program.set(name, unit++);
     };
-    bind("baked_colour", baked_colour);
+    bind("baked_colour", baked.colour());
     bind("foreground", foreground.colour());
     bind("foreground_depth", foreground.depth_m());
     if (notes_origins) bind("foreground_shares", *foreground.shares());

@@ -23,12 +23,12 @@ class FusedColour {
     void draw_plainly(const RigLayers& layers, const Texture& fused_depth, const DepthPicture& into,
                       bool notes_origins);
 
-    /// Draws the image of a baked background (`baked_depth`, as fused_depth) behind a foreground
-    /// (see ForegroundLayers::show_alone()) at low cost: the rigs' colours of this instant where
-    /// they see it, and the baked ones elsewhere.
-    void draw_on_baked(const RigLayers& layers, const Texture& baked_depth,
-                       const Texture& baked_colour, const DepthPicture& foreground,
-                       const DepthPicture& into, bool notes_origins);
+    /// Draws the image of a baked background (see BakedPainter) behind a foreground (see
+    /// ForegroundLayers::show_alone()) at low cost: the rigs' colours of this instant where they
+    /// see it, and the baked ones elsewhere.
+    void draw_on_baked(const RigLayers& layers, const DepthPicture& baked,
+                       const DepthPicture& foreground, const DepthPicture& into,
+                       bool notes_origins);
 
     /// Draws the image. The target's depth texture is the one that sort() returned.
     void draw(const RigLayers& layers, const Texture& fused_depth, const DepthPicture& into,

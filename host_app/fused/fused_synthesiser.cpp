@@ -77,18 +77,13 @@ class FusedRenderer final : public ViewRenderer {
         const bool notes_origins = blender_.notes_origins();
         RigLayers& layers = blender_.layers();
         layers.begin(layers_of(rigs), view);
-        baked_.draw(background, view);
+        const DepthPicture& baked = baked_.draw(background, view);
         const DepthPicture& foreground = performers_.show_alone(
-            baked_.depth_m(), notes_origins, layers_of(rigs, &InstantRig::boundary), view);
+            baked.depth_m(), notes_origins, layers_of(rigs, &InstantRig::boundary), view);
         picture_.resize({view.width_px, view.height_px}, notes_origins);
-        colour_.draw_on_baked(layers, baked_.depth_m(), baked_.colour(), foreground, picture_,
-                              notes_origins);
+        colour_.draw_on_baked(layers, baked, foreground, picture_, notes_origins);
         origins_.reset();
-        if (notes_origins) {
-            origins_ = {picture_.shares(), {}};
-            for (const DrawnLayer& layer : layers.used())
-                origins_->rigs.push_back(layer.surface->camera().name);
-        }
+        if (notes_origins) origins_ = origins_of(picture_, layers);
         depth_m_ = &picture_.depth_m();
         return impulses_.filter(picture_.colour(), *depth_m_);
     }

@@ -2,28 +2,22 @@
 
 #include <algorithm>
 
-#include "common/av/av_log.h"
+#include "common/av/av_input.h"
 #include "common/base/error.h"
 
 namespace vantage {
 
 SoundDecoder::SoundDecoder(std::filesystem::path path)
     : path_(std::move(path)), packet_(av_packet_alloc()), frame_(av_frame_alloc()) {
-    keep_av_log();
-    AVFormatContext* input = nullptr;
-    int code = avformat_open_input(&input, ("file:" + path_.string()).c_str(), nullptr, nullptr);
-    if (code < 0) refuse(code);
-    input_.reset(input);
-    code = avformat_find_stream_info(input, nullptr);
-    if (code < 0) refuse(code);
+    int code = 0;
+    input_ = open_av_input(path_, code);
+    if (!input_) refuse(code);
     const AVCodec* codec = nullptr;
-    code = av_find_best_stream(input, AVMEDIA_TYPE_AUDIO, -1, -1, &codec, 0);
+    code = find_av_stream(*input_, AVMEDIA_TYPE_AUDIO, &codec);
     if (code < 0 || !codec) fail("{} has no sound that FFmpeg can decode", path_.string());
-    stream_ = input->streams[code];
-    decoder_.reset(avcodec_alloc_context3(codec));
-    code = avcodec_parameters_to_context(decoder_.get(), stream_->codecpar);
-    decoder_->pkt_timebase = stream_->time_base;
-    if (code >= 0) code = avcodec_open2(decoder_.get(), codec, nullptr);
+    stream_ = input_->streams[code];
+    constexpr int threads = 1;
+    code = open_av_decoder(*stream_, *codec, threads, decoder_);
     if (code < 0) refuse(code);
 }
 

@@ -2,6 +2,13 @@
 
 namespace vantage {
 
+PixelOrigins origins_of(const DepthPicture& picture, const RigLayers& layers) {
+    PixelOrigins origins{picture.shares(), {}};
+    for (const DrawnLayer& layer : layers.used())
+        origins.rigs.push_back(layer.surface->camera().name);
+    return origins;
+}
+
 const Texture& LayerBlender::blend(const VirtualView& view, const Drawing& drawing,
                                    const BeforeFilling& before_filling, const Texture* depth_test) {
     blended_.resize({view.width_px, view.height_px}, notes_origins_, depth_test);
@@ -10,11 +17,7 @@ const Texture& LayerBlender::blend(const VirtualView& view, const Drawing& drawi
     else
         drawing(blended_, notes_origins_);
     origins_.reset();
-    if (notes_origins_) {
-        origins_ = {blended_.shares(), {}};
-        for (const DrawnLayer& layer : layers_.used())
-            origins_->rigs.push_back(layer.surface->camera().name);
-    }
+    if (notes_origins_) origins_ = origins_of(blended_, layers_);
     const DepthPicture& picture = before_filling ? before_filling(blended_) : blended_;
     return filler_.fill(picture.colour(), picture.depth_m());
 }

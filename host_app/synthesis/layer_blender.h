@@ -12,6 +12,9 @@
 
 namespace vantage {
 
+/// Returns the origins of a picture's pixels, whose shares are those of the layers.
+PixelOrigins origins_of(const DepthPicture& picture, const RigLayers& layers);
+
 /// The last stage of every synthesiser that draws the rigs' surfaces as layers: a shader merges the
 /// layers into an image, and holes are filled. Belongs to one context.
 class LayerBlender {

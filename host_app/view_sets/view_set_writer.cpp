@@ -5,24 +5,11 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
+#include "common/geometry/json_rows.h"
 #include "common/image/image_file.h"
 #include "common/image/pfm.h"
 
 namespace vantage {
-namespace {
-
-template <typename Matrix>
-nlohmann::ordered_json rows_of(const Matrix& matrix) {
-    auto rows = nlohmann::ordered_json::array();
-    for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
-        auto row = nlohmann::ordered_json::array();
-        for (Eigen::Index c = 0; c < matrix.cols(); ++c) row.push_back(matrix(r, c));
-        rows.push_back(row);
-    }
-    return rows;
-}
-
-}  // namespace
 
 ViewSetWriter::ViewSetWriter(std::filesystem::path folder) : folder_(std::move(folder)) {
     if (std::filesystem::exists(folder_ / "views.json"))
@@ -33,11 +20,10 @@ ViewSetWriter::ViewSetWriter(std::filesystem::path folder) : folder_(std::move(f
 void ViewSetWriter::begin_view(const Camera& camera, const std::filesystem::path& picture) {
     // A view set is read as a whole: what cannot be read is refused before it is copied.
     picture_size_ = read_colour_image(picture).size();
-    const Eigen::Matrix<double, 3, 4> pose = camera.world_from_camera.matrix().topRows<3>();
     document_["views"].push_back({{"name", camera.name},
                                   {"image", copy(picture, camera.name)},
-                                  {"K", rows_of(camera.K)},
-                                  {"world_from_camera", rows_of(pose)}});
+                                  {"K", json_rows(camera.K)},
+                                  {"world_from_camera", json_rows(camera.world_from_camera)}});
 }
 
 void ViewSetWriter::add_disparity(const Disparity& disparity) {

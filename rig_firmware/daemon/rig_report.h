@@ -8,7 +8,7 @@
 
 namespace vantage {
 
-/// What the daemon told about itself, for its support report.
+/// Lines of the support report that the daemon collects while it runs.
 struct RigNotes {
     std::vector<std::string> at_start;     ///< lines of the start-up report
     std::vector<std::string> clock_steps;  ///< the last steps of this computer's clock

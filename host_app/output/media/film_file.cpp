@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "common/av/av_input.h"
 #include "common/av/av_log.h"
 #include "common/base/error.h"
 #include "host_app/output/media/mp4_fragments.h"
@@ -25,13 +26,10 @@ const char* container_of(const std::filesystem::path& path) {
 
 /// True if the file opens and contains a frame.
 bool is_readable(const std::filesystem::path& path) {
-    AVFormatContext* input = nullptr;
-    if (avformat_open_input(&input, ("file:" + path.string()).c_str(), nullptr, nullptr) < 0)
-        return false;
+    int code = 0;
+    const AvInputPtr input = open_av_input(path, code);
     const AvPacketPtr packet(av_packet_alloc());
-    const bool has_picture = av_read_frame(input, packet.get()) >= 0;
-    avformat_close_input(&input);
-    return has_picture;
+    return input && av_read_frame(input.get(), packet.get()) >= 0;
 }
 
 }  // namespace
