@@ -105,6 +105,7 @@ void BackgroundModel::learn(RigHistory& rig) {
     Program& show = colour_.use();
     show.input("picture", rig.fresh_colour());
     show.input("before", background_colour);
+    show.input("shown_before", has_before ? rig.denoised_colour() : rig.fresh_colour());
     show.input("seen", background.seen());
     show.input("matte", rig.matte().texture());
     show.set("has_before", has_before ? 1.0f : 0.0f);

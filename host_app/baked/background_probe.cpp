@@ -1,6 +1,7 @@
 #include "host_app/baked/background_probe.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <opencv2/calib3d.hpp>
 
@@ -13,6 +14,11 @@ constexpr double tile_error_px = 0.6;
 constexpr int backdrop_cell_px = 16;
 /// Pixels of the largest speckle, and the step of parallax around it, in sixteenths of a pixel.
 constexpr int largest_speckle_px = 24, speckle_step = 16;
+
+/// Pixels that a surface is continued by into a hole, from each side.
+constexpr int widest_filled_px = 12;
+/// Alpha of places that no rig has seen.
+constexpr std::uint8_t never_seen_alpha = 64;
 
 DepthImage inverse_of(const DepthImage& depth_m) {
     DepthImage inverse(depth_m.size(), 0.0f);
@@ -64,18 +70,48 @@ DepthImage without_speckles(const ColourImage& colour, const DepthImage& depth_m
     return kept_m;
 }
 
+/// Continues surfaces into the holes around them, up to `widest_filled_px` from each side. Holes
+/// lie beside depth edges: of the surfaces around a pixel the farthest one is continued, and is
+/// marked as never seen.
+void fill_holes(ColourImage& colour, DepthImage& depth_m) {
+    const cv::Rect all({}, depth_m.size());
+    std::vector<cv::Point> holes;
+    for (int y = 0; y < depth_m.rows; ++y)
+        for (int x = 0; x < depth_m.cols; ++x)
+            if (depth_m(y, x) == 0) holes.emplace_back(x, y);
+    for (int step = 0; step < widest_filled_px && !holes.empty(); ++step) {
+        std::vector<std::pair<cv::Point, cv::Point>> filled;  // a hole and its source
+        std::erase_if(holes, [&](cv::Point hole) {
+            cv::Point source = hole;
+            for (const cv::Point off : {cv::Point(-1, 0), {1, 0}, {0, -1}, {0, 1}})
+                if (all.contains(hole + off) && depth_m(hole + off) > depth_m(source))
+                    source = hole + off;
+            if (source == hole) return false;
+            filled.emplace_back(hole, source);
+            return true;
+        });
+        for (const auto& [hole, source] : filled) {
+            depth_m(hole) = depth_m(source);
+            colour(hole) = colour(source);
+            colour(hole)[3] = never_seen_alpha;
+        }
+    }
+}
+
 }  // namespace
 
 ProbeTiles probe_tiles(const VirtualView& view, const ColourImage& colour,
                        const DepthImage& depth_m, double parallax_px_m) {
-    const DepthImage distance_m = without_speckles(colour, depth_m, parallax_px_m);
+    DepthImage distance_m = without_speckles(colour, depth_m, parallax_px_m);
+    ColourImage filled = colour.clone();
+    fill_holes(filled, distance_m);
     ProbeTiles probe{
         .view = view,
         .tiles = planar_tiles(distance_m,
                               static_cast<float>(tile_error_px / std::max(parallax_px_m, 1e-3))),
         .inverse_depth = inverse_of(distance_m),
-        .colour = colour,
-        .backdrop = backdrop_colours(colour, distance_m, backdrop_cell_px)};
+        .colour = filled,
+        .backdrop = backdrop_colours(filled, distance_m, backdrop_cell_px)};
     probe.surface_tiles = probe.tiles.size();
     const std::vector<DepthTile> backdrop = backdrop_tiles(distance_m, backdrop_cell_px);
     probe.tiles.insert(probe.tiles.end(), backdrop.begin(), backdrop.end());

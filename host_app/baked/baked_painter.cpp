@@ -8,9 +8,6 @@
 namespace vantage {
 namespace {
 
-/// The share of the depth by which each further probe is moved away, so that the nearest probe's
-/// surfaces hide the same surfaces of the others.
-constexpr float further_probe_share = 0.01f;
 constexpr double nearest_plane_m = 0.05;
 
 }  // namespace
@@ -38,19 +35,24 @@ const DepthPicture& BakedPainter::draw(const BakedBackground& background, const 
     glDisable(GL_BLEND);
     program_.use();
     vertices_.bind();
-    float nearer = 1;
+    // A further probe shows only what the nearer ones have not seen, and the nearest probe's
+    // backdrop what none has seen.
+    constexpr float range = 1.0f / (most_probes + 1);
+    float begin = 0;
     for (const BackgroundProbe* probe : nearest) {
-        draw(*probe, probe->surfaces(), view, nearer);
-        nearer *= 1 - further_probe_share;
+        glDepthRangef(begin, begin + range);
+        draw(*probe, probe->surfaces(), view);
+        begin += range;
     }
-    // What no probe has seen shows the nearest probe's backdrop.
-    if (!nearest.empty()) draw(*nearest.front(), nearest.front()->backdrop(), view, 1);
+    glDepthRangef(begin, 1);
+    if (!nearest.empty()) draw(*nearest.front(), nearest.front()->backdrop(), view);
+    glDepthRangef(0, 1);
     glDisable(GL_DEPTH_TEST);
     return picture_;
 }
 
 void BakedPainter::draw(const BackgroundProbe& probe, const BackgroundProbe::Part& part,
-                        const VirtualView& view, float nearer) {
+                        const VirtualView& view) {
     if (part.tiles == 0) return;
     program_.set(
         "clip_from_pixel",
@@ -65,7 +67,6 @@ void BakedPainter::draw(const BackgroundProbe& probe, const BackgroundProbe::Par
     program_.input("inverse_depth", part.inverse_depth);
     program_.set("colour_cell_px", part.cell_px);
     program_.set("is_guessed", part.is_guessed ? 1 : 0);
-    program_.set("nearer", nearer);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(6 * part.tiles), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(6 * part.first_tile * sizeof(std::uint32_t)));
 }

@@ -10,7 +10,8 @@
 
 namespace vantage {
 
-/// Draws a baked background from any place: the tiles of the nearest probes, with a depth test.
+/// Draws a baked background from any place: the tiles of the nearest probe, and those of the next
+/// one where the nearest has seen nothing.
 /// Belongs to one context.
 class BakedPainter {
   public:
@@ -24,9 +25,8 @@ class BakedPainter {
     const DepthPicture& draw(const BakedBackground& background, const VirtualView& view);
 
   private:
-    /// Draws a part of a probe with its inverse depths multiplied by `nearer`.
     void draw(const BackgroundProbe& probe, const BackgroundProbe::Part& part,
-              const VirtualView& view, float nearer);
+              const VirtualView& view);
 
     Program program_;
     DrawnDepth depth_test_;

@@ -113,7 +113,7 @@ void BackgroundBaker::begin(std::span<RigHistory* const> rigs, const VirtualView
     if (is_rough) wanted.resize(std::min(wanted.size(), BakedPainter::most_probes));
     for (const std::size_t i : wanted) {
         const Probe& probe = probes_[i];
-        const bool is_due = !is_current(probe) ||
+        const bool is_due = !is_current(probe) || (probe.is_rough && !is_rough) ||
                             (probe.made_s < modelled_s && now_s - probe.made_s >= probe.rest_s);
         if (!is_due) continue;
         Drawing drawing;
@@ -173,11 +173,13 @@ void BackgroundBaker::divide() {
 
 void BackgroundBaker::take_over(const ProbeTiles& tiles) {
     Probe& probe = probes_[divided_->probe];
-    probe.rest_s = probe.made
+    const bool was_refined = probe.made && !probe.is_rough;
+    probe.rest_s = was_refined
                        ? std::clamp(2 * probe.rest_s, first_probe_rest_s, longest_probe_rest_s)
                        : first_probe_rest_s;
     probe.made = std::make_shared<const BackgroundProbe>(tiles);
     probe.made_s = divided_->begun_s;
+    probe.is_rough = divided_->is_rough;
     auto extra = std::make_shared<BakedExtra>();
     for (const Probe& one : probes_)
         if (one.made) extra->background.probes.push_back(one.made);

@@ -47,8 +47,9 @@ class BackgroundBaker {
     struct Probe {
         VirtualView view;
         std::shared_ptr<const BackgroundProbe> made;
-        double made_s = 0;  ///< when its baking began, on the preparer's clock
-        double rest_s = 0;  ///< time before it is baked again
+        double made_s = 0;     ///< when its baking began, on the preparer's clock
+        double rest_s = 0;     ///< time before it is baked again
+        bool is_rough = true;  ///< not all models were refined by then
     };
     struct ModelSurface {
         std::shared_ptr<const RigSurface> model, surface;

@@ -33,6 +33,9 @@ constexpr int remembered_from = 3;
 /// Time between two status updates of the backgrounds and the mattes.
 constexpr double look_period_s = 1;
 
+/// The best level interpolates images bicubically.
+float sharpening_of(const PrepareLevel& level) { return level.rank > 0 ? bilinear_sharpening : 0; }
+
 }  // namespace
 
 StagedPreparer::StagedPreparer(const ShaderLibrary& library)
@@ -194,6 +197,7 @@ const Texture& StagedPreparer::refined_background(RigHistory& rig) {
     ComparedView view = compared(rig);
     std::vector<ComparedView> all;
     for (RigHistory* one : rigs_.shown()) {
+        refinement_.then([one] { one->generate_mipmaps(); });
         all.push_back(compared(*one));
         if (!one->match() || one->learnt_instants() == 0) continue;
         one->matched_depth().resize(one->depth().size());
@@ -287,7 +291,6 @@ const Texture& StagedPreparer::patched_model(const RigHistory& rig) {
 
 std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory& rig,
                                                                      const PrepareLevel& level) {
-    rig.generate_mipmaps();
     const Texture* depth_m = &rig.steady_depth();
     const Texture* measured_m = depth_m;
     const std::optional<RigHistory::Model>& before = rig.model();
@@ -340,6 +343,7 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
     program.input("picture", rig.fresh_colour());
     program.input("background_colour", rig.colour());
     program.input("matte", rig.matte().texture());
+    program.set("sharpening", sharpening_of(level));
     colour_performers_.draw(surface->colour_target(), rig.matte_tiles().texture(),
                             rig.fresh_colour().size());
     triangles_.build_where(surface->grid(QuadGrid::coarse), rig.matte_tiles().texture(),
@@ -396,6 +400,7 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
     now.input("background_depth", surface->depth());
     now.input("confidence", surface->confidence().texture());
     now.set("remembered", RigSurface::remembered_confidence);
+    now.set("sharpening", sharpening_of(level));
     now_.draw(surface->colour_target());
     surface->finish_colour();
     return surface;

@@ -22,6 +22,11 @@
 
 namespace vantage {
 
+/// Share of the Laplacian by which images are sharpened once per instant for the levels that
+/// interpolate them bilinearly. 1/12 makes up for the mean variance of that interpolation, and the
+/// rest for a virtual camera that stands nearer than the rigs, whose pixels show less of a surface.
+inline constexpr float bilinear_sharpening = 0.22f;
+
 /// The product's preparer. It separates the stage into a background, which is learnt over time,
 /// refined by all rigs and kept, and a foreground, which a matte cuts out of every instant.
 class StagedPreparer final : public InstantPreparer, private BackgroundAccess {

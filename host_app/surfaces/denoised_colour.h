@@ -9,18 +9,18 @@
 namespace vantage {
 
 /// GPU state of temporal denoising: the denoised picture (rgba8, with mip levels) and the mean
-/// (rgba16f), of which the old copy is read while the new one is drawn. The mean's alpha counts its
-/// instants and falls where the picture changes.
+/// (rgba16f). The old copies of both are read while the new ones are drawn. The mean's alpha counts
+/// its instants and falls where the picture changes.
 class DenoisedColour {
   public:
     /// Whether picture() and mean() hold anything.
     bool is_drawn() const { return is_drawn_; }
-    const Texture& picture() const { return sized_->picture; }
+    const Texture& picture() const { return sized_->pictures[sized_->now]; }
     const Texture& mean() const { return sized_->means[sized_->now]; }
 
     /// Starts again if the size changes.
     void resize(cv::Size size) {
-        if (sized_ && sized_->picture.size() == size) return;
+        if (sized_ && sized_->pictures[0].size() == size) return;
         sized_.emplace(size);
         is_drawn_ = false;
     }
@@ -38,20 +38,22 @@ class DenoisedColour {
         sized_->now = 1 - sized_->now;
         is_drawn_ = true;
     }
-    void generate_mipmaps() { sized_->picture.generate_mipmaps(); }
+    void generate_mipmaps() { sized_->pictures[sized_->now].generate_mipmaps(); }
     void forget() { is_drawn_ = false; }
 
   private:
     struct Sized {
-        Texture picture;
-        std::array<Texture, 2> means;
+        std::array<Texture, 2> pictures, means;
         std::array<Framebuffer, 2> targets;
         std::size_t now = 0;
 
         explicit Sized(cv::Size size)
-            : picture(TextureFormat::rgba8, size.width, size.height, Filter::linear, true),
+            : pictures{picture_of(size), picture_of(size)},
               means{mean_of(size), mean_of(size)},
-              targets{Framebuffer{&picture, &means[0]}, Framebuffer{&picture, &means[1]}} {}
+              targets{Framebuffer{&pictures[0], &means[0]}, Framebuffer{&pictures[1], &means[1]}} {}
+        static Texture picture_of(cv::Size size) {
+            return {TextureFormat::rgba8, size.width, size.height, Filter::linear, true};
+        }
         static Texture mean_of(cv::Size size) {
             return {TextureFormat::rgba16f, size.width, size.height, Filter::linear};
         }

@@ -43,6 +43,8 @@ class RigHistory {
     /// The temporal mean; after finish_colour() that of this upload. Precondition:
     /// has_colour_before().
     const Texture& colour_mean() const { return denoised_colour_.mean(); }
+    /// The denoised picture that belongs to colour_mean(). Precondition: has_colour_before().
+    const Texture& denoised_colour() const { return denoised_colour_.picture(); }
     const Framebuffer& next_colour_target() {
         return denoised_colour_.next_target(colour_->size());
     }

@@ -3,7 +3,6 @@
 uniform sampler2D colour;         // alpha is below one half where the place was never seen
 uniform sampler2D inverse_depth;  // 1/m, 0 = none
 uniform float colour_cell_px;     // the probe's pixels that one of `colour` spans
-uniform float nearer;             // as in probe_tiles.vert
 uniform bool is_guessed;          // the tile lies behind all that was seen, and has no edges
 
 in vec2 place_px;
@@ -24,7 +23,7 @@ void main() {
         if (dot(lies_on, share) < 0.5) discard;
     }
     vec4 c = textureLod(colour, (place_px + 0.5) / (colour_cell_px * vec2(textureSize(colour, 0))), 0.0);
-    float z = 1.0 / (gl_FragCoord.w * plane * nearer);
+    float z = 1.0 / (gl_FragCoord.w * plane);
     shown = vec4(c.rgb, is_guessed ? 64.0 / 255.0 : c.a);
     depth_m = !is_guessed && c.a >= 0.5 ? z : -z;
 }

@@ -1,8 +1,6 @@
 // The corners of a probe's planar tiles. Inverse depth is linear over a plane's picture, so that (u, v, 1, inverse depth)
 // are homogeneous coordinates in which a tile is flat.
 uniform mat4 clip_from_pixel;  // on (u * z, v * z, z, 1)
-uniform bool is_guessed;       // the tile lies behind all that was seen
-uniform float nearer;          // share of the inverse depth, below 1: the tile moves away
 
 layout(location = 0) in vec4 corner;  // u px, v px, inverse depth 1/m, tolerance 1/m
 
@@ -14,7 +12,5 @@ void main() {
     place_px = corner.xy;
     plane = corner.z;
     tolerance = corner.w;
-    gl_Position = clip_from_pixel * vec4(corner.xy, 1.0, corner.z * nearer);
-    // The nearer half of the depth range is for what was seen.
-    gl_Position.z = 0.5 * (gl_Position.z + (is_guessed ? gl_Position.w : -gl_Position.w));
+    gl_Position = clip_from_pixel * vec4(corner.xy, 1.0, corner.z);
 }

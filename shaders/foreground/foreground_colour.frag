@@ -1,6 +1,8 @@
 // The foreground of a rig's image: its share of each pixel, and its colour premultiplied by that share. The learnt
 // background colour is subtracted from pixels that show both. The result is clamped between the pixel's colour and that
 // of the neighbour with the largest share, because a share of a few per cent does not determine a colour.
+#include "sharpened.glsl"
+
 uniform sampler2D picture;
 uniform sampler2D background_colour;
 uniform sampler2D matte;  // the foreground's share of each pixel
@@ -13,9 +15,11 @@ const float noise = 0.03;  // of the camera's colours (0..1)
 void main() {
     vec2 texel = 1.0 / vec2(textureSize(picture, 0)), uv = gl_FragCoord.xy * texel;
     float share = textureLod(matte, uv, 0.0).r;
+    performers = vec4(sharpened(picture, ivec2(gl_FragCoord.xy)), 1.0);
+    if (share == 1.0) return;
     vec3 own = textureLod(picture, uv, 0.0).rgb;
     performers = vec4(share * own, share);
-    if (share == 0.0 || share == 1.0) return;
+    if (share == 0.0) return;
 #ifdef WITHOUT_UNMIXING  // tests/bench/step_worth.py
     return;
 #endif

@@ -51,6 +51,10 @@ int main(int argc, char** argv) {
                     "Per cent of the pixels and of the squared error, by region");
     bool without_times = false;
     steps->add_flag("--without-times", without_times, "Only what does not depend on the machine");
+    steps
+        ->add_option("--flight", stepped.flight,
+                     "Flight file: one camera of 480x270 flies its move, and none stands still")
+        ->check(CLI::ExistingFile);
     steps->add_option("--pictures", stepped.pictures, "Folder for pictures beside their truth");
     BackgroundTruth wanted_set;
     CLI::App* set = app.add_subcommand("set", "How accurate the depth of a background is");

@@ -14,6 +14,7 @@
 
 #include "common/base/error.h"
 #include "common/image/image_file.h"
+#include "host_app/flight/moves/move.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/view_sets/immersive_metrics.h"
@@ -284,9 +285,77 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
     return text;
 }
 
+/// The rows of one scene for a camera that flies a move.
+std::string flown_rows(const ShaderLibrary& library, const SteppedTruth& wanted,
+                       std::uint64_t scene) {
+    VirtualStage stage(library, scene), truth_stage(library, scene);
+    std::vector<std::unique_ptr<MatchingRig>> rigs;
+    for (const double place : {-1.5, -0.5, 0.5, 1.5})
+        rigs.push_back(std::make_unique<MatchingRig>(library, place * wanted.apart_deg,
+                                                     rigs.size() + 1, wanted.rigs));
+    const Move move = Move::load(wanted.flight);
+    const cv::Size size = wanted.flown_size;
+    std::string text;
+    for (const std::string& name : wanted.synthesisers) {
+        const SynthesiserEntry entry = find_synthesiser(name);
+        const std::unique_ptr<InstantPreparer> preparer = entry.make_preparer(library);
+        ViewPainter painter(entry, {.width_px = size.width, .height_px = size.height}, library);
+        Fidelity fidelity;
+        const double rate_hz = wanted.rate_hz;
+        const auto instants =
+            std::llround((wanted.settling_s + wanted.measured_s) * wanted.rate_hz);
+        for (std::int64_t k = 0; k < instants; ++k) {
+            const double time_s = static_cast<double>(k) / rate_hz;
+            const nanoseconds time = nanoseconds_of(wanted.start_s + time_s);
+            std::vector<DepthView> views;
+            for (const auto& rig : rigs) {
+                rig->film(stage, time, static_cast<std::uint64_t>(k));
+                views.push_back(rig->view(!wanted.with_exact_depth));
+            }
+            const CameraState camera = move.at(time_s).camera();
+            const VirtualView target = view_of(camera, size);
+            preparer->take(views, 1 / rate_hz);
+            preparer->improve(target);
+            const auto instant = preparer->prepare(
+                target, prepare_levels()[static_cast<std::size_t>(wanted.prepare_level)]);
+            if (time_s < wanted.settling_s) continue;
+            const ColourImage picture = painter.paint(
+                *instant, camera, render_levels()[static_cast<std::size_t>(wanted.render_level)]);
+            const ColourImage truth =
+                truth_stage
+                    .render({size.width, size.height, camera.K(size.width, size.height),
+                             camera.world_from_camera},
+                            time, {.pictures = StagePictures::colour})
+                    .colour;
+            fidelity.add(picture, truth);
+            if (!wanted.pictures.empty())
+                write_beside(wanted.pictures, fmt::format("{}_scene{}_{:03}", name, scene, k),
+                             picture, truth);
+        }
+        text += fmt::format("| {} | {} | {:.2f} | {:.3f} | {:.1f} % |\n", name, scene,
+                            fidelity.psnr_db(), fidelity.ssim(), 100 * fidelity.outliers());
+    }
+    return text;
+}
+
+std::string flown_table(const ShaderLibrary& library, const SteppedTruth& wanted) {
+    std::string text = fmt::format(
+        "Four rigs of {}x{}, {:g} degrees apart, {} depth. {:g} instants a second, prepared at "
+        "level {} and rendered at level {}; a camera of {}x{} that flies a move, from {:g} s on "
+        "and for {:g} s.\n\n| synthesiser | scene | PSNR dB | SSIM | outlier pixels |\n"
+        "| --- | --- | --- | --- | --- |\n",
+        wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg,
+        wanted.with_exact_depth ? "exact" : "own", wanted.rate_hz, wanted.prepare_level,
+        wanted.render_level, wanted.flown_size.width, wanted.flown_size.height, wanted.settling_s,
+        wanted.measured_s);
+    for (const std::uint64_t scene : wanted.sets) text += flown_rows(library, wanted, scene);
+    return text;
+}
+
 }  // namespace
 
 std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& wanted) {
+    if (!wanted.flight.empty()) return flown_table(library, wanted);
     std::string text = fmt::format(
         "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}. {:g} "
         "instants a second, prepared at level {} and rendered at level {}; three cameras between "

@@ -22,6 +22,9 @@ struct SteppedTruth {
     bool knows_set = false;             ///< begins with what a loop of the stage tells of its set
     bool with_regions = false;          ///< shares of pixels and of squared error, by TruthRegion
     bool with_times = true;             ///< of the processor
+    /// A flight file: one camera of `flown_size` flies its move, and no camera stands still.
+    std::string flight;
+    cv::Size flown_size{480, 270};
     std::string
         pictures;  ///< a folder for the last picture of each view beside its truth; may be empty
 };

@@ -108,6 +108,14 @@ TEST_F(BackgroundModelTest, RemovesNoiseFromAStillPicture) {
               0.5 * deviation_along_time(noisy, everywhere));
 }
 
+TEST_F(BackgroundModelTest, HardlyEverChangesAPixelOfAStillPicture) {
+    for (int i = 0; i < 24; ++i) (void)next(filmed_with_noise(1));
+    const ColourImage before = next(filmed_with_noise(1)).colour;
+    cv::Mat1b has_changed;
+    cv::extractChannel(cv::Mat(next(filmed_with_noise(1)).colour != before), has_changed, 1);
+    EXPECT_LT(cv::countNonZero(has_changed), 0.02 * static_cast<double>(has_changed.total()));
+}
+
 /// Each step is smaller than the noise.
 TEST_F(BackgroundModelTest, FollowsALampThatIsDimmedSlowly) {
     DepthView dimmed = film();

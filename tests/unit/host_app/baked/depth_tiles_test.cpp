@@ -82,7 +82,7 @@ TEST(DepthTiles, BackdropHasNoHolesAndStandsBehind) {
         }
 }
 
-TEST(ProbeTiles, LeaveOutSpecklesAndPlacesWithoutColour) {
+TEST(ProbeTiles, ReplaceSpecklesAndPlacesWithoutColour) {
     DepthImage depth_m(map_height_px, map_width_px, 4.0f);
     ColourImage colour(depth_m.size(), cv::Vec4b(90, 90, 90, 255));
     depth_m(cv::Rect(10, 10, 3, 3)) = 2;
@@ -90,9 +90,30 @@ TEST(ProbeTiles, LeaveOutSpecklesAndPlacesWithoutColour) {
     constexpr double parallax_px_m = 100;
     const ProbeTiles probe =
         probe_tiles({map_width_px, map_height_px}, colour, depth_m, parallax_px_m);
-    EXPECT_EQ(probe.inverse_depth(11, 11), 0) << "a speckle";
-    EXPECT_EQ(probe.inverse_depth(24, 44), 0) << "no colour";
+    for (const cv::Point place : {cv::Point(11, 11), cv::Point(44, 24)}) {
+        EXPECT_FLOAT_EQ(probe.inverse_depth(place), 0.25f) << place;
+        EXPECT_EQ(probe.colour(place)[0], 90) << place;
+        EXPECT_LT(probe.colour(place)[3], 128) << place << " is as if it had been seen";
+    }
     EXPECT_FLOAT_EQ(probe.inverse_depth(40, 10), 0.25f);
+    EXPECT_EQ(probe.colour(40, 10)[3], 255);
+}
+
+TEST(ProbeTiles, ContinueTheFartherSurfaceIntoAHole) {
+    DepthImage depth_m(map_height_px, map_width_px, 4.0f);
+    depth_m(cv::Rect(0, 0, 28, map_height_px)) = 2;
+    depth_m(cv::Rect(28, 0, 8, map_height_px)) = 0;
+    const ColourImage colour(depth_m.size(), cv::Vec4b(90, 90, 90, 255));
+    const ProbeTiles probe = probe_tiles({map_width_px, map_height_px}, colour, depth_m, 100);
+    // Each side meets a half of it; there the farther one prevails.
+    EXPECT_FLOAT_EQ(probe.inverse_depth(20, 33), 0.25f);
+    EXPECT_FLOAT_EQ(probe.inverse_depth(20, 27), 0.5f);
+    DepthImage wide = depth_m.clone();
+    wide(cv::Rect(28, 0, map_width_px - 28, map_height_px)) = 0;
+    EXPECT_EQ(probe_tiles({map_width_px, map_height_px}, colour, wide, 100)
+                  .inverse_depth(20, map_width_px - 2),
+              0)
+        << "what is far from all surfaces is left to the backdrop";
 }
 
 ProbeRig probe_rig_at(double x_m) {
