@@ -180,7 +180,7 @@ std::string played_table(const PlayedTruth& wanted) {
         "| hand-over after the tick: p50, p99, most | {:.1f}, {:.1f}, {:.0f} ms |\n"
         "| exposure to picture: p50, p95, p99 | {:.0f}, {:.0f}, {:.0f} ms |\n"
         "| between two new pictures: p50, p99 | {:.0f}, {:.0f} ms |\n"
-        "| instants a second | {:.1f} |\n"
+        "| instants per second | {:.1f} |\n"
         "| levels by time: rendering | {} |\n"
         "| levels by time: preparing | {} |\n",
         wanted.rate_hz, wanted.quality, played.report.renderer, instant.pictures(),
