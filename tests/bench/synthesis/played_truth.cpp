@@ -168,8 +168,9 @@ std::string played_table(const PlayedTruth& wanted) {
     }
     const ProgrammeStats& stats = played.report.programme;
     return fmt::format(
-        "The demo's rigs and a programme of {:g} frames per second, quality {}, on {}: {} pictures "
-        "after the first {:g} s, repeated ones too.\n\n"
+        "The demo's rigs and a programme of {:g} frames per second, quality {}, on {}. There are "
+        "{} "
+        "pictures after the first {:g} s, repeated ones too.\n\n"
         "| against | PSNR dB | SSIM | outlier pixels |\n| --- | --- | --- | --- |\n"
         "| the instant shown | {:.2f} | {:.3f} | {:.1f} % |\n"
         "| the tick's own time | {:.2f} | {:.3f} | {:.1f} % |\n\n"
