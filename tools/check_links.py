@@ -41,7 +41,7 @@ def main():
         if page.startswith("tests/"):
             continue
         text = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
-        for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`]*`", "", text)):
+        for target in re.findall(r"(?:\]\(|<img src=\")([^)\s\"]+)", re.sub(r"`[^`]*`", "", text)):
             if "://" in target or target.startswith("mailto:"):
                 continue
             links += 1

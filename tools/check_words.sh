@@ -35,7 +35,7 @@ words=(
 pattern="(?<![A-Za-z])(?:$(IFS='|'; echo "${words[*]}"))(?![a-z])"
 paths=("$@")
 [ ${#paths[@]} -gt 0 ] || paths=(.)
-found=$(git ls-files -- "${paths[@]}" ':!CHANGELOG.md' ':!tools/check_words.sh' ':!docs/pictures' ':!docs/results' ':!LICENSE' |
+found=$(git ls-files -- "${paths[@]}" ':!CHANGELOG.md' ':!tools/check_words.sh' ':!docs/pictures' ':!LICENSE' |
   xargs -d '\n' grep -nP "$pattern" /dev/null 2>/dev/null | grep -v 'old name')
 names=$(git ls-files -- "${paths[@]}" ':!docs/pictures' | grep -P "$pattern")
 if [ -n "$found$names" ]; then

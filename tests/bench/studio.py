@@ -1,10 +1,9 @@
 #!/usr/bin/python3
-"""Measures what studio peers of a show get, and writes docs/results/studio.md.
+"""Measures how fast a show serves studio devices and programs, and writes docs/results/studio.md.
 
   tests/bench/studio.py PROGRAMS [PART...]     PROGRAMS is build/release/bin; without parts all
 Parts: opentrackio, companion, page, clients, python. It takes four minutes and needs Chromium, Node.js and npm for their
-parts. Parts and `--print` write
-nothing.
+parts. Nothing is written when a part is named or with `--print`.
 """
 
 import http.client
@@ -304,11 +303,11 @@ def made_take(programs, folder, rigs, size):
 
 
 PARTS = {
-    "opentrackio": (opentrackio, "OpenTrackIO at 59.94 Hz for 60 s", "no late packet, samples that the schema accepts"),
-    "companion": (companion, "Companion", "a press is a command within 20 ms"),
+    "opentrackio": (opentrackio, "OpenTrackIO at 59.94 Hz for 60 s", "no late packet, and samples that the schema accepts"),
+    "companion": (companion, "Companion", "a key press becomes a command within 20 ms"),
     "page": (page, "The page for tablets", "first paint within 1 s with 8 rigs"),
     "clients": (clients, "50 clients of the page", "no tick missed"),
-    "python": (python, "A frame set in Python", "at most 5 ms beyond decoding"),
+    "python": (python, "A frame set in Python", "at most 5 ms more than decoding takes"),
 }
 
 
@@ -321,7 +320,10 @@ def main():
         model = next((line.split(":")[1].strip() for line in file if line.startswith("model name")), platform.machine())
     text = (
         "# Studio\n\n"
-        "`tests/bench/studio.py build/release/bin` writes this page. It measures what studio peers get on loopback.\n\n"
+        "This page says how fast Vantage serves the devices and programs of a studio: a receiver of camera tracking, a\n"
+        "Stream Deck, tablets, and Python. All of them run on one computer and talk over loopback.\n\n"
+        "```text\ntests/bench/studio.py build/release/bin\n```\n\n"
+        "The command takes four minutes and writes this page. Each part states its goal first.\n\n"
         f"Computer: {os.cpu_count()} processors ({model}), load {os.getloadavg()[0]:.1f} at the start, no GPU needed.\n"
     )
     for part in arguments[1:] or PARTS:
@@ -330,6 +332,11 @@ def main():
             found = measure(programs, folder)
         text += f"\n## {title}\n\nGoal: {goal}.\n\n| measure | result |\n| --- | --- |\n"
         text += "".join(f"| {name} | {value} |\n" for name, value in found.items())
+    text += (
+        "\n## Limits\n\n"
+        "- Loopback has no network delay; a studio's network adds its own.\n"
+        "- Real devices were not connected: the measuring programs speak their protocols.\n"
+    )
     print(text)
     if "--print" not in sys.argv and not arguments[1:]:
         (SOURCES / "docs" / "results" / "studio.md").write_text(text)

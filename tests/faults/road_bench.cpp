@@ -130,8 +130,9 @@ void run(int argc, char** argv) {
             std::cerr << control << ", every " << lose_every << "\n";
         }
     text << fmt::format(
-        "One rig of {}x{}, 25 frames of {:.0f} kB a second ({:.0f} Mbit/s), {:g} s each. Frames "
-        "that came of those filmed, and from exposure to decoded ms, median and 99 %.\n\n"
+        "One rig of {}x{}, 25 frames per second of {:.0f} kB ({:.0f} Mbit/s), {:g} s each. A cell "
+        "has the share of frames that arrived, then the median and the 99th percentile of the time "
+        "from exposure to decoding in ms.\n\n"
         "| congestion control | packets lost |",
         size.width, size.height, static_cast<double>(frame_bytes) / 1e3,
         8e-6 * 25 * static_cast<double>(frame_bytes), seconds);

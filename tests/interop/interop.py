@@ -61,9 +61,13 @@ class Table:
 
     def markdown(self):
         lines = ["# Files of other programs", "",
-                 "`tests/interop/interop.py` writes this page. It makes every file with the program named, reads it with Vantage, and",
-                 "compares the result with the original. *Right*: the same result. *Named*: a difference or a refusal that Vantage names.", "",
-                 "| writer | form | reader | verdict | what Vantage said |", "| --- | --- | --- | --- | --- |"]
+                 "This page says which pictures, videos, calibrations and time codes of other programs Vantage reads, and what it says about the",
+                 "others.", "",
+                 "```text", "tests/interop/interop.py --bin build/release/bin -o docs/results/interop.md", "```", "",
+                 "The command writes this page. It makes every file with the program named, reads it with Vantage, and compares the result with",
+                 "the original. The verdict *right* means the same result. *Named* means a difference or a refusal that Vantage names. *Wrong*",
+                 "means a difference that Vantage does not notice.", "",
+                 "| writer | format | reader | verdict | message of Vantage |", "| --- | --- | --- | --- | --- |"]
         lines += ["| " + " | ".join(row) + " |" for row in self.rows]
         counts = {v: sum(row[3] == v for row in self.rows) for v in ("right", "named", "wrong", "SKIPPED")}
         lines += ["", ", ".join(f"{count} {name}" for name, count in counts.items()) + "."]

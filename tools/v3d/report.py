@@ -275,8 +275,11 @@ def title(m):
 
 
 def document(models, mesa):
-    out = ['# The shaders of a rig on a Raspberry Pi\'s compiler', '',
-           f'`tools/v3d.sh` writes this page. It runs the GPU work of a rig\'s frame on Mesa {mesa}\'s V3D driver and a pretended GPU.',
+    out = ['# Raspberry Pi\'s GPU', '',
+           'This page says how much GPU time a rig\'s frame takes at least on a Raspberry Pi 5 and 4, for each preset and size.',
+           '[Hardware](../build/hardware.md#which-preset) says which preset to choose.', '',
+           '```text', 'tools/v3d.sh', '```', '',
+           f'The command writes this page. It runs the GPU work of a rig\'s frame on Mesa {mesa}\'s V3D driver and a pretended GPU.',
            'The work is rectification of NV12 or YUYV, matching of a stream, and the temporal filter. Programs are compiled for the real instruction set.',
            'Nothing executes, and no number here was measured on a Raspberry Pi.', '',
            '**Every time is a lower bound.** A pass takes at least the longer of two times. One is the time to issue the instructions that the',
@@ -290,7 +293,7 @@ def document(models, mesa):
     for m in models:
         out.append(f"| {m['chip']['name']} | {title(m)} | {m['bound_ms']:.1f} | {m['lanes'] / 1e6:.0f} | {m['bytes'] / 1e6:.0f} | "
                    f"{m['round_trips'] / 1e3:.0f} | {m['longest_ms']:.1f} | {m['compile_ms'] / 1e3:.1f} |")
-    out += ['', 'Memory rate assumed: ' + ', '.join(f"{c['name']} {c['bytes_per_s'] / 1e9:.1f} GB/s, {c['qpus']} QPUs at {c['hz'] / 1e6:.0f} MHz"
+    out += ['', 'Assumed memory rate, processors and clock: ' + '; '.join(f"{c['name']} {c['bytes_per_s'] / 1e9:.1f} GB/s, {c['qpus']} QPUs at {c['hz'] / 1e6:.0f} MHz"
                                                   for c in CHIPS.values()) + '.', '']
     for m in models:
         out += [f"## {m['chip']['name']}, {title(m)}", '',

@@ -260,25 +260,24 @@ void run(ScaleRigs wanted, const std::vector<int>& sizes, int relayed,
     double load = 0;
     std::ifstream("/proc/loadavg") >> load;
     text << fmt::format(
-        "Frames of {:.0f} kB, {:g} a second and rig, {:g} s each; {} processors for rigs and host "
+        "Frames of {:.0f} kB, {:g} per second and rig, {:g} s each; {} processors for rigs and "
+        "host "
         "together, load {:.0f} at the end.\n\n"
-        "| rigs | the host's work | frames/s | MB/s | came of those filmed | sets complete | "
-        "pushed "
-        "out at rigs | host busy | late | not in the take |\n"
+        "| rigs | the host's work | frames/s | MB/s | arrived | frame sets complete | "
+        "dropped at rigs | dropped at host | late | not in the take |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n{}\n"
-        "Processor time of the host, ms a frame that came, by step; and processors that host and "
-        "rigs used.\n\n"
-        "| rigs | the host's work | network, decryption | copies, sets | decode | recording | all "
-        "| "
-        "host: processors | rigs: processors |\n"
+        "Processor time of the host by step, in ms for each frame that arrived, and the processors "
+        "that host and rigs used.\n\n"
+        "| rigs | the host's work | network, decryption | copies, frame sets | decode | recording "
+        "| all | host: processors | rigs: processors |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n{}\n",
         frame_kb, wanted.rate_hz, wanted.seconds, sysconf(_SC_NPROCESSORS_ONLN), load, flow.str(),
         cost.str());
     wanted.rigs = relayed;
     text << fmt::format(
-        "A relay of {} rigs, by the hosts behind it.\n\n"
-        "| hosts | frames that left the rigs | came to the relay | came to the hosts | MB/s from "
-        "the rigs | relay: ms a frame |\n| --- | --- | --- | --- | --- | --- |\n{}\n",
+        "A relay of {} rigs, by the number of hosts behind it.\n\n"
+        "| hosts | frames sent by the rigs | received by the relay | received by the hosts | MB/s "
+        "from the rigs | relay: ms per frame |\n| --- | --- | --- | --- | --- | --- |\n{}\n",
         relayed, measure_relay(wanted));
     std::cout << text.str();
     if (!document.empty()) put_between_markers(document, text.str());

@@ -192,9 +192,9 @@ void look_at(const std::filesystem::path& path, std::uint64_t seed, const Sent& 
 std::string table_of(const Tally& tally) {
     const Percentiles lost = tally.lost_ms.summary();
     return fmt::format(
-        "| kills | before there was a file | files that open | that `ffprobe` opens | `check` "
-        "right "
-        "| end within a block | frames compared | gaps named | lost: median | 95 % | most |\n"
+        "| kills | before there was a file | files that open | files that `ffprobe` opens | "
+        "`check` right | end within a block | frames compared | gaps named | lost: median | 95 % | "
+        "most |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
         "| {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} ms | {:.0f} ms | {:.0f} ms |\n",
         tally.kills, tally.before_head, tally.opened, tally.by_ffprobe, tally.check_right,

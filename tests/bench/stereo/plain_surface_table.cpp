@@ -63,7 +63,7 @@ Count count_of(const ShaderLibrary& library, const StereoScene& scene) {
 StereoScene scene_of_set(const ShaderLibrary& library, std::uint64_t set) {
     const FilmedPair pair = filmed_background(library, set, {449, 337}, 1);
     StereoScene scene;
-    scene.name = set == 0 ? "the show" : fmt::format("random set {}", set);
+    scene.name = fmt::format("stage scene {}", set);
     scene.left = pair.left;
     scene.right = pair.right;
     scene.disparity_px = pair.disparity_px;
@@ -78,8 +78,9 @@ StereoScene scene_of_set(const ShaderLibrary& library, std::uint64_t set) {
 void print_plain_surface_table(const ShaderLibrary& library,
                                const std::vector<StereoScene>& scenes) {
     fmt::print(
-        "Plain surfaces: bad-2.0 in percent where the gradient's mean over 9x9 pixels is below {} "
-        "grey levels a pixel. It is of what both cameras see; then how much of that is plain\n\n"
+        "Plain surfaces: bad-2.0 in per cent where the gradient's mean over 9x9 pixels is below {} "
+        "grey levels per pixel. Only pixels that both cameras see count; the column *plain* has "
+        "their share.\n\n"
         "| scene | plain, % | HH4 | quality | balanced | fast |\n"
         "| --- | --- | --- | --- | --- | --- |\n",
         most_plain_gradient);
@@ -97,7 +98,7 @@ void print_plain_surface_table(const ShaderLibrary& library,
         sets.add(count);
     }
     photographs.print("**photographs, all pixels**");
-    sets.print("**the stage's sets, all pixels**");
+    sets.print("**the stage's scenes, all pixels**");
     generated.print("**generated scenes, all pixels**");
     fmt::print("\n");
 }

@@ -164,8 +164,9 @@ const char* mark_of(SceneUse use) {
 void print_quality(const ShaderLibrary& library, const std::string& matcher,
                    const std::vector<StereoScene>& scenes, const std::string& pictures) {
     fmt::print(
-        "bad-2.0 in percent, non-occluded known pixels, dense; (t) = settings were chosen by it, "
-        "(s) = in sight meanwhile\n\n"
+        "Per cent of pixels whose disparity is off by more than 2 px (bad-2.0), of all known "
+        "pixels that both cameras see. Scenes marked (t) chose settings; scenes marked (s) were "
+        "looked at meanwhile.\n\n"
         "| scene | BM | 3WAY | HH4 | quality | balanced | fast | quality / best | balanced / best "
         "| fast / best |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
@@ -195,7 +196,7 @@ void print_quality(const ShaderLibrary& library, const std::string& matcher,
     generated.print("held-out generated scenes");
     tuning.print("scenes of tuning");
     fmt::print(
-        "\nLikewise of what only the left camera sees, which each matcher fills\n\n"
+        "\nThe same for pixels that only the left camera sees, which each matcher fills.\n\n"
         "| scene | 3WAY | HH4 | quality | balanced | fast |\n"
         "| --- | --- | --- | --- | --- | --- |\n{}\n",
         left_only);
@@ -252,7 +253,8 @@ StereoScene altered(const StereoScene& scene, const std::string& how) {
 void print_robustness(const ShaderLibrary& library, const std::string& matcher,
                       const std::vector<StereoScene>& scenes) {
     fmt::print(
-        "What an altered right picture costs: bad-2.0 altered - bad-2.0 as it was, in points\n\n"
+        "An altered right picture: bad-2.0 with it, less bad-2.0 of the original pair, in "
+        "points.\n\n"
         "| scene | HH4 | HH4, cap 63 | quality | balanced | fast |\n"
         "| --- | --- | --- | --- | --- | --- |\n");
     const auto hh4_with_cap_63 = [](const StereoScene& scene) {
@@ -407,7 +409,7 @@ int run(int argc, char** argv) {
     }
 
     fmt::print(
-        "CPU time, one thread to draw or match with, ms, least of {} interleaved repeats\n\n"
+        "Processor time of one thread in ms, the least of {} interleaved repeats.\n\n"
         "| size | BM | 3WAY | HH4 | quality | balanced | fast | quality / HH4 | balanced / 3WAY | "
         "fast / 3WAY |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",

@@ -61,16 +61,17 @@ ColourImage comparison_row(const BackgroundResults& results) {
 
 void print_stage_tables(const ShaderLibrary& library, const std::filesystem::path& picture) {
     fmt::print(
-        "The virtual stage, {}x{}x{}, sensor noise of one grey level: sub-pixel error, RMS in px, "
-        "on slanted textured planes (of the pixels less than one pixel off). Then the area under "
-        "the sparsification curve of confidence against chance (bad-2.0, all pixels)\n\n"
-        "| set | HH4, px | quality, px | balanced, px | fast, px | quality / chance | balanced / "
+        "The virtual stage, {}x{}x{}, with a sensor noise of one grey level. The first columns "
+        "have the sub-pixel error on slanted textured planes, RMS in px, of the pixels less than "
+        "one pixel off. The last have the area under the sparsification curve of confidence, "
+        "relative to chance (bad-2.0, all pixels).\n\n"
+        "| scene | HH4, px | quality, px | balanced, px | fast, px | quality / chance | balanced / "
         "chance | fast / chance |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",
         size_px.width, size_px.height, disparities);
     std::vector<cv::Mat> rows;
     for (const std::uint64_t set : {0, 1, 2, 3}) {
         const BackgroundResults results = results_of(library, set);
-        fmt::print("| {} |", set == 0 ? "the show" : fmt::format("random set {}", set));
+        fmt::print("| {} |", fmt::format("stage scene {}", set));
         for (const cv::Mat1f& found : results.found_px)
             fmt::print(" {:.3f} |",
                        subpixel_error_on_slants(found, results.pair, disparities).rms_px);

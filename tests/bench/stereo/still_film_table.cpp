@@ -151,8 +151,9 @@ void print_still_film_table(const ShaderLibrary& library) {
         "Films of the virtual stage at {} frames per second, {}x{} with {} disparities, one second "
         "after their start. The sensor noise is {} grey levels, the exposure drifts by {} %, and "
         "performers move. Frames are matched each by itself, or denoised over time as the daemon "
-        "does it. The table has shares of the still pixels in percent: those whose disparity "
-        "changes by more than a pixel from one frame to the next / within {} frames.\n\n"
+        "does it. A cell has the per cent of still pixels whose disparity changes by more than a "
+        "pixel "
+        "from one frame to the next, and within {} frames.\n\n"
         "| scene | HH4 | quality | denoised | balanced | denoised | fast | denoised |\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
         frames_per_s, size_px.width, size_px.height, disparities, noise_sigma, 100 * drift,
@@ -161,7 +162,7 @@ void print_still_film_table(const ShaderLibrary& library) {
     std::array<double, 14> sums{};
     for (std::uint64_t set = 0; set < stage_frame_sets; ++set) {
         const std::vector<FilmFrame> film = film_of(library, set);
-        const std::string name = set == 0 ? "the show" : fmt::format("random set {}", set);
+        const std::string name = fmt::format("stage scene {}", set);
         std::string row;
         std::size_t column = 0;
         const auto add = [&](const Flicker& found) {
@@ -188,7 +189,7 @@ void print_still_film_table(const ShaderLibrary& library) {
         fmt::print(" **{:.1f} / {:.1f}** |", sums[i] / stage_frame_sets,
                    sums[i + 1] / stage_frame_sets);
     fmt::print(
-        "\n\nbad-2.0 in percent on these films, of what stands still / of what moves\n\n"
+        "\n\nbad-2.0 in per cent on these films, of still pixels and of moving pixels.\n\n"
         "| scene | quality | denoised | balanced | denoised | fast | denoised |\n"
         "| --- | --- | --- | --- | --- | --- | --- |\n{}\n",
         errors);

@@ -209,15 +209,13 @@ int run(int argc, char** argv) {
 
     std::ostringstream text;
     text << fmt::format("Measured on {}.\n\n", GlInfo::query().renderer)
-         << "PSNR and SSIM over all pixels, and coverage; on the stage also the mean error, of "
-            "255, of "
-            "what is covered within 2 px of depth edges. The stage at 320x240: four rigs so far "
-            "apart, exact depth, and the view midway between the middle two. There are "
+         << "A cell has PSNR and SSIM over all pixels, and the coverage. On the stage it also has "
+            "the mean error, of 255, of covered pixels within 2 px of depth edges. The stage has "
+            "320x240, four rigs so far apart, and exact depth. The view is midway between the "
+            "middle two. There are "
          << instants_before
-         << " instants before it, half a second apart. The column ms has an instant and a picture "
-            "of "
-            "the stage, "
-            "20 degrees.\n\n| system |";
+         << " instants before it, half a second apart. The column ms is for an instant and a "
+            "picture of the stage at 20 degrees.\n\n| system |";
     for (const Case& one : cases) text << " " << one.name << " |";
     text << " ms |\n| --- |";
     for (std::size_t i = 0; i <= cases.size(); ++i) text << " --- |";
@@ -257,8 +255,8 @@ int run(int argc, char** argv) {
     }
 
     text << fmt::format(
-        "\n### How many cameras geometry stands for\n\nThe same view of the stage from a grid of "
-        "cameras {:.2f} m wide, which look the same way.\n\n| cameras | `lightfield` | "
+        "\n### How many cameras depth replaces\n\nThe same view of the stage, from a grid of "
+        "cameras that is {:.2f} m wide. All look the same way.\n\n| cameras | `lightfield` | "
         "`lightfield:rays=corrected` |\n| --- | --- | --- |\n",
         width_m);
     for (const cv::Size cameras :

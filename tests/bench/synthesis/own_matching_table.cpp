@@ -66,10 +66,11 @@ std::string row(const ShaderLibrary& library, std::uint64_t set, double apart_de
 std::string own_matching_table(const ShaderLibrary& library) {
     std::string text = fmt::format(
         "\n### The virtual stage, depth by the rigs' own matching, {}x{}\n\n"
-        "Four rigs, sensor noise of {:g} grey level; `fused` midway between the middle two, from "
-        "exact depth and from what `quality` finds. Flicker: standard deviation along time on a "
-        "still stage against that of a camera with the same noise.\n\n"
-        "| set | rigs apart (degrees) | exact: PSNR dB | SSIM | own: PSNR dB | SSIM | coverage | "
+        "Four rigs have a sensor noise of {:g} grey level. `fused` renders midway between the "
+        "middle two, from exact depth and from the depth of `quality`. Flicker is the standard "
+        "deviation over time on a still stage, relative to that of a camera with the same "
+        "noise.\n\n"
+        "| scene | rigs apart (degrees) | exact: PSNR dB | SSIM | own: PSNR dB | SSIM | coverage | "
         "flicker |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",
         size.width, size.height, noise_sigma);
     for (const std::uint64_t set : {0u, 1u, 2u, 4u, 5u, 6u})

@@ -168,8 +168,9 @@ std::string played_table(const PlayedTruth& wanted) {
     }
     const ProgrammeStats& stats = played.report.programme;
     return fmt::format(
-        "The demo's rigs and a programme of {:g} frames per second, quality {}, on {}: {} pictures "
-        "after the first {:g} s, repeated ones too.\n\n"
+        "The demo's rigs and a programme of {:g} frames per second, quality {}, on {}. There are "
+        "{} "
+        "pictures after the first {:g} s, repeated ones too.\n\n"
         "| against | PSNR dB | SSIM | outlier pixels |\n| --- | --- | --- | --- |\n"
         "| the instant shown | {:.2f} | {:.3f} | {:.1f} % |\n"
         "| the tick's own time | {:.2f} | {:.3f} | {:.1f} % |\n\n"
@@ -180,7 +181,7 @@ std::string played_table(const PlayedTruth& wanted) {
         "| hand-over after the tick: p50, p99, most | {:.1f}, {:.1f}, {:.0f} ms |\n"
         "| exposure to picture: p50, p95, p99 | {:.0f}, {:.0f}, {:.0f} ms |\n"
         "| between two new pictures: p50, p99 | {:.0f}, {:.0f} ms |\n"
-        "| instants a second | {:.1f} |\n"
+        "| instants per second | {:.1f} |\n"
         "| levels by time: rendering | {} |\n"
         "| levels by time: preparing | {} |\n",
         wanted.rate_hz, wanted.quality, played.report.renderer, instant.pictures(),

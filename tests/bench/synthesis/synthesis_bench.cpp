@@ -90,7 +90,8 @@ class Bench {
   public:
     void held_out_views(const std::filesystem::path& data) {
         text_ << "### Real pictures, one view held out\n\n"
-                 "From the two views with ground-truth disparity; `vantage render --hold-out`.\n\n"
+                 "The pictures come from the two views with ground-truth disparity (`vantage "
+                 "render --hold-out`).\n\n"
                  "| scene, view | synthesiser | PSNR dB | covered only | SSIM | coverage |\n"
                  "| --- | --- | --- | --- | --- | --- |\n";
         for (const auto& [scene, name] :
@@ -108,7 +109,8 @@ class Bench {
 
     void stage_views() {
         text_ << "\n### The virtual stage, exact depth, 320x240\n\n"
-                 "Halo: mean error in a 5 px band around depth edges, against `mesh`.\n\n"
+                 "Halo is the mean error in a 5 px band around depth edges, relative to "
+                 "`mesh`.\n\n"
                  "| rigs at, view at (degrees) | synthesiser | PSNR dB | covered only | SSIM | "
                  "coverage | halo |\n| --- | --- | --- | --- | --- | --- | --- |\n";
         struct Case {
@@ -142,10 +144,11 @@ class Bench {
 
     void times() {
         text_ << "\n### Time against the number of rigs\n\n"
-                 "Rigs of 640x480 around the stage. `render` is a picture of what is there; `+ "
-                 "depth` takes a new instant of all rigs in as well. Background plates are learnt "
-                 "and shown. Wall time of the GPU's work, and, since a software rasteriser shares "
-                 "its processor, CPU time; ms, the least of "
+                 "Rigs of 640x480 stand around the stage. `render` is a picture of the present "
+                 "instant, and `+ depth` adds a new instant of all rigs. Backgrounds are learnt "
+                 "and shown. The first column is the wall time of the GPU's work, in ms. The "
+                 "column CPU is the processor's time, since a software renderer shares its "
+                 "processor. Each value is the least of "
               << repeats
               << ", for which the numbers of rigs take turns.\n\n"
                  "| output | synthesiser | rigs | render | CPU | + depth | CPU |\n"
