@@ -94,10 +94,13 @@ std::vector<std::size_t> BackgroundBaker::nearest_first(const VirtualView& view)
 std::shared_ptr<const BakedExtra> BackgroundBaker::baked_for(const VirtualView& target) const {
     if (!baked_) return nullptr;
     std::vector<std::size_t> needed = nearest_first(target);
-    needed.resize(std::min(needed.size(), BakedPainter::most_probes));
-    const bool has_all = std::all_of(needed.begin(), needed.end(),
-                                     [&](std::size_t probe) { return is_current(probes_[probe]); });
-    return has_all ? baked_ : nullptr;
+    const std::size_t drawn = std::min(needed.size(), BakedPainter::most_probes);
+    // While one beside it is missing, the next one on either side replaces it.
+    needed.resize(std::min(needed.size(), 2 * drawn));
+    const auto current = std::count_if(needed.begin(), needed.end(), [&](std::size_t probe) {
+        return is_current(probes_[probe]);
+    });
+    return static_cast<std::size_t>(current) >= drawn ? baked_ : nullptr;
 }
 
 void BackgroundBaker::begin(std::span<RigHistory* const> rigs, const VirtualView& target,

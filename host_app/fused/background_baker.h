@@ -33,10 +33,10 @@ class BackgroundBaker {
               bool waits);
     /// Whether a probe is being drawn for a place that nothing is baked for yet.
     bool is_first_under_way() const { return drawing_ && !is_current(probes_[drawing_->probe]); }
-    /// The background has changed: what was baked before is not drawn any more.
+    /// The background has changed: what was baked before of refined models is not drawn any more.
     void note_change(double now_s);
-    /// Returns what `target` is drawn from; null while one of its probes is missing or older than
-    /// a change.
+    /// Returns what `target` is drawn from; null while too many of the probes around it are
+    /// missing or older than a change.
     std::shared_ptr<const BakedExtra> baked_for(const VirtualView& target) const;
     /// Returns a rig's background model as a surface that does not change until the model does,
     /// with the learnt colours. Precondition: the rig has a model.
@@ -67,7 +67,11 @@ class BackgroundBaker {
     void place_probes(std::span<RigHistory* const> rigs);
     /// Returns the probes in the order of their ways to a view.
     std::vector<std::size_t> nearest_first(const VirtualView& view) const;
-    bool is_current(const Probe& probe) const { return probe.made && probe.made_s > changed_s_; }
+    /// Rough models still change while the background is being learnt: their probes are drawn until
+    /// there are newer ones.
+    bool is_current(const Probe& probe) const {
+        return probe.made && (probe.is_rough || probe.made_s > changed_s_);
+    }
     /// Begins to draw the probe that is due first, if any.
     void begin(std::span<RigHistory* const> rigs, const VirtualView& target, double now_s);
     /// Does the next step of drawing. Returns false if it was the last one.

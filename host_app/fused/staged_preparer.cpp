@@ -28,8 +28,6 @@ constexpr int baked_from = 5;
 constexpr double changed_share_to_patch = 0.01;
 /// Time for which the cheapest levels keep a known background's shape; colours are always new.
 constexpr double shape_kept_s = 1;
-/// Instants that must be learnt before hidden parts of the background are remembered.
-constexpr int remembered_from = 3;
 /// Time between two status updates of the backgrounds and the mattes.
 constexpr double look_period_s = 1;
 
@@ -67,13 +65,14 @@ void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
         std::all_of(uploaded_.begin(), uploaded_.end(),
                     [](const RigHistory* rig) { return rig->learnt_instants() >= baked_from; });
     learn(level_.is_refined || !are_known ? uploaded_ : rigs_in_turn());
+    make_a_first_model();
     if (now_s_ - looked_s_ >= look_period_s || states_.size() != uploaded_.size()) look_at_sets();
 }
 
 void StagedPreparer::warm_up(std::span<const DepthView> views, const VirtualView& target) {
-    // Enough instants to remember a background, with enough time between them to refine it.
+    // Enough instants to bake a background, with enough time between them to refine it.
     match_anew(std::numeric_limits<double>::infinity());
-    for (int i = 0; i < remembered_from; ++i) take(views, improvement_period_s);
+    for (int i = 0; i < baked_from; ++i) take(views, improvement_period_s);
     constexpr PrepareLevel best_of_one{0, 1, true, true};
     (void)prepare(target, prepare_levels().back());
     (void)prepare(target, best_of_one);
@@ -154,11 +153,9 @@ void StagedPreparer::look_at_sets() {
         const bool is_learnt = rig->learnt_instants() > 0;
         const BackgroundModel::Look look =
             is_learnt ? sets_.look_at(*rig) : BackgroundModel::Look();
-        const bool is_first =
-            rig->learnt_instants() >= baked_from && rig->model() && rig->model()->made < baked_from;
         const bool has_changed = look.changed_share > changed_share_to_patch;
-        if (has_changed) baker_.note_change(now_s_);
-        if (is_first || has_changed) {
+        if (has_changed) {
+            baker_.note_change(now_s_);
             if (level_.is_refined)
                 make_model_due(*rig);
             else
@@ -169,6 +166,19 @@ void StagedPreparer::look_at_sets() {
                            .is_loaded = misfit != misfits_.end() && misfit->second.empty(),
                            .misfit = misfit != misfits_.end() ? misfit->second : "",
                            .matte = look.matte});
+    }
+}
+
+void StagedPreparer::make_a_first_model() {
+    for (RigHistory* rig : uploaded_) {
+        const std::optional<RigHistory::Model>& model = rig->model();
+        if (rig->learnt_instants() < baked_from || (model && model->made >= baked_from)) continue;
+        if (model && model->rank == 0) {
+            make_model_due(*rig);
+        } else if (!level_.is_refined) {
+            make_model(*rig, prepare_levels().back());
+            return;
+        }
     }
 }
 
@@ -457,7 +467,9 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
                                     BackgroundStereoTask::Manner manner) {
     if (match_a_step(manner)) return true;
     if (refinement_pass_ && !is_under_way(*refinement_pass_)) refinement_pass_.reset();
-    if (!refinement_pass_ && bake_a_step(target, manner)) return true;
+    // What a picture would be drawn from at once comes before better models.
+    const bool is_baking_urgent = !baker_.baked_for(target);
+    if ((!refinement_pass_ || is_baking_urgent) && bake_a_step(target, manner)) return true;
     if (!refinement_pass_) begin_refining(target);
     if (!refinement_pass_) return false;
     const MultiViewRefinement::Step step = std::move(refinement_pass_->steps.front());
@@ -474,6 +486,8 @@ void StagedPreparer::begin_refining(const VirtualView& target) {
     // The rig whose model has been due for longest; one without a model is due at once, and those
     // in view are refined first.
     const auto due_s = [](const RigHistory& rig) {
+        // A model of few instants would be made anew soon.
+        if (rig.learnt_instants() < baked_from) return std::numeric_limits<double>::infinity();
         if (!rig.model()) return -1.0;
         return rig.model()->made_s + (rig.model()->rank == 0 ? rig.model()->rest_s : 0);
     };

@@ -59,6 +59,9 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     /// Lets a rig without a past begin with the loaded background if it fits.
     void begin_with_learnt(RigHistory& rig);
     void look_at_sets();
+    /// Makes a rough model of one rig that is learnt well enough for its background to be baked and
+    /// has no model of that yet.
+    void make_a_first_model();
     /// A background model that is refined in steps between instants.
     struct Refining {
         struct Rig {
