@@ -14,7 +14,6 @@ Install it in Preferences, Add-ons, Install; then use File, Import, Vantage expo
 
 import csv
 import json
-import struct
 import sys
 from pathlib import Path
 
@@ -107,8 +106,8 @@ def read_flight(path):
 
 
 def read_ply(path):
-    """Positions and colours of a binary PLY that Vantage wrote."""
-    formats = {"float": "f", "uchar": "B", "int": "i", "uint": "I"}
+    """Positions (n, 3) and colours (n, 3) of uint8 of a binary PLY that Vantage wrote."""
+    formats = {"float": "<f4", "uchar": "u1", "int": "<i4", "uint": "<u4"}
     with open(path, "rb") as file:
         header = []
         while not header or header[-1] != "end_header":
@@ -118,23 +117,31 @@ def read_ply(path):
                 raise ExportError(f"{path} is no PLY")
         if header[0] != "ply" or "format binary_little_endian 1.0" not in header:
             raise ExportError(f"{path} is no binary PLY")
-        count, layout, names, element = 0, "<", [], ""
+        count, layout, element = 0, [], ""
         for words in (line.split() for line in header):
             if words[0] == "element":
                 element = words[1]
                 count = int(words[2]) if element == "vertex" else count
             elif words[0] == "property" and element == "vertex":
-                layout += formats[words[1]]
-                names.append(words[2])
-        size = struct.calcsize(layout)
+                layout.append((words[2], formats[words[1]]))
+        size = numpy.dtype(layout).itemsize
         data = file.read(count * size)
         if len(data) < count * size:
             raise ExportError(f"{path} is cut short")
-        points = [dict(zip(names, values)) for values in struct.iter_unpack(layout, data)]
+    points = numpy.frombuffer(data, layout, count)
     return (
-        [(p["x"], p["y"], p["z"]) for p in points],
-        [(p["red"] / 255, p["green"] / 255, p["blue"] / 255, 1.0) for p in points],
+        numpy.stack([points[axis] for axis in "xyz"], axis=1),
+        numpy.stack([points[channel] for channel in ("red", "green", "blue")], axis=1),
     )
+
+
+def linear_colours(coded):
+    """(n, 4) R, G, B, A in Blender's linear light of (n, 3) colours of sRGB in 8 bits."""
+    steps = numpy.arange(256) / 255
+    decoded = numpy.where(steps <= 0.04045, steps / 12.92, ((steps + 0.055) / 1.055) ** 2.4)
+    colours = numpy.ones((len(coded), 4), numpy.float32)
+    colours[:, :3] = decoded[coded]
+    return colours
 
 
 def point_material():
@@ -159,9 +166,12 @@ def add_points(name, path, collection, radius_m=0.01):
     """The points of a PLY as an object of vertices, drawn as spheres. Returns the object."""
     positions, colours = read_ply(path)
     mesh = bpy.data.meshes.new(name)
-    mesh.from_pydata([BLENDER_FROM_WORLD @ Vector(at) for at in positions], [], [])
+    mesh.vertices.add(len(positions))
+    placed = positions @ numpy.array(BLENDER_FROM_WORLD.to_3x3()).T
+    mesh.vertices.foreach_set("co", placed.astype(numpy.float32).ravel())
     attribute = mesh.attributes.new("Col", "FLOAT_COLOR", "POINT")
-    attribute.data.foreach_set("color", [channel for colour in colours for channel in colour])
+    attribute.data.foreach_set("color", linear_colours(colours).ravel())
+    mesh.update()
     mesh.materials.append(point_material())
     thing = bpy.data.objects.new(name, mesh)
     collection.objects.link(thing)
@@ -320,6 +330,8 @@ def main(arguments):
         output = arguments[at + 1]
         del arguments[at : at + 2]
     bpy.ops.wm.read_factory_settings(use_empty=True)
+    # Other view transforms change the colours that were filmed.
+    bpy.context.scene.view_settings.view_transform = "Standard"
     try:
         for export in arguments:
             print(read_export(export))

@@ -198,6 +198,7 @@ bool FrameServer::receive() {
     const MonotonicTime now = MonotonicClock::now();
     try {
         if (parts.size() != 2) fail("a host message of {} parts came", parts.size() - 1);
+        if (is_revoked(route, parts[1])) return true;
         const HostMessage message = decode_host_message(bytes_of(parts[1]));
         note_clock(message, parts[1], now);
         const std::lock_guard lock(mutex_);
@@ -213,6 +214,20 @@ bool FrameServer::receive() {
         ++malformed_;
         links_.refuse(route, fmt::format("rig {}: {}", rig_, error.what()));
     }
+    return true;
+}
+
+bool FrameServer::is_revoked(const std::string& route, zmq::message_t& part) {
+    if (!admission_) return false;
+    const std::string key = host_key_of(part);
+    if (admission_->lists(key)) return false;
+    const std::lock_guard lock(mutex_);
+    if (links_.dismiss(key))
+        log_warning("the host at {} is no longer served: its key {} was removed from {}",
+                    address_of(part), key, admission_->path().string());
+    links_.refuse(route, fmt::format("rig {} no longer admits this host: its key was removed from "
+                                     "the rig's authorized_hosts; pair them again, or add the key",
+                                     rig_));
     return true;
 }
 

@@ -84,6 +84,9 @@ class FrameServer {
     void turn();
     void beat(MonotonicTime now);
     bool receive();
+    /// Refuses a host whose key was removed from the list of authorized hosts while it was
+    /// connected.
+    bool is_revoked(const std::string& route, zmq::message_t& part);
     /// Warns if the host's TAI offset differs from this computer's.
     void note_clock(const HostMessage& message, zmq::message_t& part, MonotonicTime now);
     void send_all();

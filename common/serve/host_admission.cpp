@@ -62,6 +62,11 @@ void HostAdmission::answer() {
     zmq::send_multipart(socket_, reply);
 }
 
+bool HostAdmission::lists(const std::string& key) {
+    read_list_if_changed();
+    return hosts_.contains(key);
+}
+
 void HostAdmission::read_list_if_changed() {
     std::error_code gone;
     const auto current = std::filesystem::last_write_time(path_, gone);
@@ -76,8 +81,7 @@ void HostAdmission::read_list_if_changed() {
 }
 
 bool HostAdmission::admits(const std::string& key, const std::string& address) {
-    read_list_if_changed();
-    if (hosts_.contains(key)) return true;
+    if (lists(key)) return true;
     const MonotonicTime now = MonotonicClock::now();
     std::erase_if(told_, [&](const auto& told) { return now - told.second > log_period; });
     if (told_.contains(key)) return false;

@@ -14,14 +14,17 @@ namespace vantage {
 /// one context. Used by one thread, which polls socket() and calls answer().
 class HostAdmission {
   public:
-    /// Throws Error if the list cannot be read. A changed list is read again; connected hosts stay
-    /// connected.
+    /// Throws Error if the list cannot be read. A changed list is read again.
     HostAdmission(zmq::context_t& context, std::filesystem::path authorized_hosts);
 
     zmq::socket_t& socket() { return socket_; }
 
     /// Answers one waiting request. Logs refused keys, within limits.
     void answer();
+
+    /// Whether the list has the key of a connected host, which may have been removed meanwhile.
+    bool lists(const std::string& key);
+    const std::filesystem::path& path() const { return path_; }
 
   private:
     void read_list_if_changed();

@@ -195,6 +195,16 @@ void HostLinks::fetched(const FetchJob& job, std::shared_ptr<const KeptParts> ke
     }
 }
 
+bool HostLinks::dismiss(const std::string& host_key) {
+    bool any = false;
+    for (Link& link : links_)
+        if (link.attached && link.host_key == host_key) {
+            any = true;
+            let_go(link);
+        }
+    return any;
+}
+
 void HostLinks::refuse(const Route& route, std::string sentence, bool passes) {
     if (refusals_.size() == max_refusals) return;
     RigMessage message;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cctype>
 #include <set>
 #include <string_view>
@@ -174,9 +175,13 @@ std::string edl_text(const EditList& list) {
         text += fmt::format("\n{:03}  {:<8} V     C        {} {} {} {}\n", ++number, reel,
                             code(event.in), code(event.in + event.source_frames()), code(record),
                             code(record + event.frames));
-        if (event.speed != 1)
+        if (event.speed != 1) {
+            // Readers take colons only here, as OpenTimelineIO's does; FCM says what is counted.
+            std::string trigger = code(event.in);
+            std::ranges::replace(trigger, ';', ':');
             text += fmt::format("M2   {:<8}       {:05.1f}                {}\n", reel,
-                                event.speed * list.rate_hz, code(event.in));
+                                event.speed * list.rate_hz, trigger);
+        }
         text += fmt::format("* FROM CLIP NAME: {}\n", event.name);
         if (source.file)
             text += fmt::format("* SOURCE FILE: {}\n", source.file->filename().string());

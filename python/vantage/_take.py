@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import mmap
 import os
 import subprocess
 from dataclasses import dataclass
@@ -14,9 +13,25 @@ from typing import Any, Iterator, Sequence
 import numpy as np
 import numpy.typing as npt
 
+from ._memory import SharedMemory
 from ._programs import VantageError, find_program, last_sentence
 
 _STEPS_PER_PX = 32
+_forks = 0
+
+
+def _note_fork() -> None:
+    global _forks
+    _forks += 1
+
+
+os.register_at_fork(before=_note_fork)
+
+
+def _release(released: list[int], number: int, forks: int) -> None:
+    """Lets memory be used again, unless a process that was forked meanwhile may hold it too."""
+    if forks == _forks:
+        released.append(number)
 
 
 class View:
@@ -42,7 +57,7 @@ class View:
     calibration: str
     """Identifies the calibration of the rig."""
 
-    def __init__(self, memory: mmap.mmap, head: dict[str, Any]) -> None:
+    def __init__(self, memory: SharedMemory, head: dict[str, Any]) -> None:
         self.rig = head["rig"]
         self.K = np.array(head["K"], dtype=np.float64)
         self.world_from_camera = np.vstack([np.array(head["world_from_camera"]), [0, 0, 0, 1]])
@@ -58,7 +73,7 @@ class View:
     def _array(self, place: dict[str, int], dtype: Any, channels: int) -> npt.NDArray[Any]:
         height, width = place["height"], place["width"]
         flat = np.frombuffer(
-            self._memory, dtype=dtype, count=height * width * channels, offset=place["offset"]
+            self._memory.buffer, dtype=dtype, count=height * width * channels, offset=place["offset"]
         )
         return flat.reshape((height, width, channels) if channels > 1 else (height, width))
 
@@ -152,7 +167,7 @@ class FrameSet(Sequence[View]):
     decoding_s: float
     """How long the frames took to read and decode, seconds."""
 
-    def __init__(self, memory: mmap.mmap, head: dict[str, Any]) -> None:
+    def __init__(self, memory: SharedMemory, head: dict[str, Any]) -> None:
         self.pulse = head["pulse"]
         self.timecode = head["timecode"]
         self.damaged = head["damaged"]
@@ -228,6 +243,7 @@ class Take(Sequence[FrameSet]):
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = Path(path)
+        self._released: list[int] = []
         self._process = subprocess.Popen(
             [find_program("vantage"), "take", "serve", os.fspath(path)],
             stdin=subprocess.PIPE,
@@ -255,14 +271,16 @@ class Take(Sequence[FrameSet]):
             raise VantageError(answer["error"])
         return answer
 
-    def _ask(self, request: dict[str, Any]) -> tuple[mmap.mmap, dict[str, Any]]:
+    def _ask(self, request: dict[str, Any]) -> tuple[SharedMemory, dict[str, Any]]:
         if self._process.poll() is not None or self._process.stdin is None:
             raise VantageError(f"{self.path} is closed")
+        # The garbage collector may add to the list at any time.
+        request["released"] = [self._released.pop() for _ in range(len(self._released))]
         self._process.stdin.write(json.dumps(request) + "\n")
         self._process.stdin.flush()
         answer = self._read()
-        with open(f"/proc/{self._process.pid}/fd/{answer['fd']}", "rb") as shared:
-            memory = mmap.mmap(shared.fileno(), max(answer["bytes"], 1), access=mmap.ACCESS_READ)
+        memory = SharedMemory(f"/proc/{self._process.pid}/fd/{answer['fd']}", answer["bytes"])
+        memory.at_end(_release, self._released, answer["memory"], _forks)
         return memory, answer
 
     def at(self, pulse: int) -> FrameSet:
@@ -275,7 +293,7 @@ class Take(Sequence[FrameSet]):
         memory, answer = self._ask({"cameras": True})
         place = answer["cameras"]
         rows = np.frombuffer(
-            memory, np.float64, place["height"] * place["width"], place["offset"]
+            memory.buffer, np.float64, place["height"] * place["width"], place["offset"]
         ).reshape(place["height"], place["width"])
         poses = np.tile(np.eye(4), (len(rows), 1, 1))
         poses[:, :3, :] = rows[:, 3:15].reshape(-1, 3, 4)

@@ -2,8 +2,8 @@
 """Measures how fast a show serves studio devices and programs, and writes docs/results/studio.md.
 
   tests/bench/studio.py PROGRAMS [PART...]     PROGRAMS is build/release/bin; without parts all
-Parts: opentrackio, companion, page, clients, python. It takes four minutes and needs Chromium, Node.js and npm for their
-parts. Nothing is written when a part is named or with `--print`.
+Parts: opentrackio, companion, page, clients, python. All take about five minutes, and need Chromium, Node.js and npm.
+With parts or `--print` nothing is written.
 """
 
 import http.client
@@ -138,7 +138,7 @@ def page(programs, folder):
     try:
         show = subprocess.Popen(
             [programs / "vantage", "live", "--stage", stage.file, "--headless", "--size", "320x180", "--json"]
-            + ["--web", f"http://127.0.0.1:{port}", "--seconds", "600"],
+            + ["--web", f"http://127.0.0.1:{port}", "--wait", "100", "--seconds", "600"],
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
@@ -267,10 +267,8 @@ def python(programs, folder):
     import vantage
 
     results = {}
-    takes = {"2 rigs of 96x72": TAKE}
-    for name, size in (("2 rigs of 320x240", "320x240"), ("2 rigs of 640x480", "640x480")):
-        takes[name] = made_take(programs, Path(folder), int(name[0]), size)
-    for name, path in takes.items():
+    for size in ("320x240", "640x480", "1280x720"):
+        path = made_take(programs, Path(folder), 2, size)
         with vantage.Take(path) as take:
             for frames in take:  # the first use of everything
                 _ = frames[0].colour
@@ -282,7 +280,7 @@ def python(programs, folder):
                 whole.append(1000 * (time.perf_counter() - start))
                 beyond.append(whole[-1] - 1000 * frames.decoding_s)
             del arrays
-        results[name] = f"{spread(beyond)} beyond decoding ({spread(whole)} in all)"
+        results[f"2 rigs of {size}"] = f"{spread(beyond)} beyond decoding ({spread(whole)} in all)"
     return results
 
 
@@ -293,7 +291,7 @@ def made_take(programs, folder, rigs, size):
     try:
         subprocess.run(
             [programs / "vantage", "live", "--stage", stage.file, "--headless", "--size", "96x72", "--wait", "100"]
-            + ["--seconds", "6", "--take", path],
+            + ["--synth", "points", "--seconds", "6", "--take", path],
             check=True,
             capture_output=True,
         )

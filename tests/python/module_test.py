@@ -5,6 +5,7 @@ import gc
 import inspect
 import json
 import os
+import resource
 import subprocess
 import sys
 import tempfile
@@ -29,6 +30,33 @@ def exported_views(folder, pulse):
         capture_output=True,
     )
     return folder / "000000"
+
+
+def read_ply(path):
+    """Positions (n, 3) and colours (n, 3) of a binary PLY, as its header lists them."""
+    header, _, data = path.read_bytes().partition(b"end_header\n")
+    lines = [line.split() for line in header.decode().splitlines()]
+    types = {"float": "<f4", "uchar": "u1", "double": "<f8"}
+    layout = [(line[2], types[line[1]]) for line in lines if line[0] == "property"]
+    count = next(int(line[2]) for line in lines if line[:2] == ["element", "vertex"])
+    points = np.frombuffer(data, layout, count)
+    return (
+        np.stack([points[axis] for axis in "xyz"], axis=1).astype(np.float64),
+        np.stack([points[channel] for channel in ("red", "green", "blue")], axis=1),
+    )
+
+
+def hits(frame, pose, picture, positions, colours):
+    """Which points have the colour of the pixel that a camera of transforms.json sees them at."""
+    at = (np.linalg.inv(pose) @ np.c_[positions, np.ones(len(positions))].T)[:3]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        columns = np.floor(frame["fl_x"] * at[0] / -at[2] + frame["cx"])
+        rows = np.floor(frame["fl_y"] * -at[1] / -at[2] + frame["cy"])
+    inside = (at[2] < 0) & (columns >= 0) & (columns < frame["w"]) & (rows >= 0) & (rows < frame["h"])
+    seen = np.zeros(len(positions), bool)
+    pixels = picture[rows[inside].astype(int), columns[inside].astype(int)].astype(int)
+    seen[inside] = np.abs(pixels - colours[inside]).max(axis=1) <= 2
+    return seen
 
 
 class TakeTest(unittest.TestCase):
@@ -93,6 +121,52 @@ class TakeTest(unittest.TestCase):
         self.assertEqual(other.shape, (72, 96, 3))
         with self.assertRaisesRegex(vantage.VantageError, "is closed"):
             self.take.at(1)
+
+    def descriptors(self):
+        """How many descriptors of shared memory the process that reads the take has."""
+        folder = Path(f"/proc/{self.take._process.pid}/fd")
+        return sum("vantage-frame-set" in os.readlink(each) for each in folder.iterdir())
+
+    def test_memory_of_released_frame_sets_is_used_again(self):
+        held = [self.take[0], self.take[1]]
+        before = [frames["right"].rgba.copy() for frames in held]
+        for _ in range(3):
+            for frames in self.take:
+                del frames
+        self.assertLessEqual(self.descriptors(), 4)
+        numbers = [self.take._ask({"pulse": int(pulse)})[1]["memory"] for pulse in self.take.pulses]
+        self.assertLessEqual(len(set(numbers)), 2, "the memory of the frame set before")
+        for frames, pixels in zip(held, before):
+            np.testing.assert_array_equal(frames["right"].rgba, pixels)
+
+    def test_memory_that_a_fork_may_hold_is_not_used_again(self):
+        frames = self.take[0]
+        before = frames["left"].rgba.copy()
+        out, into = os.pipe()
+        told, telling = os.pipe()
+        child = os.fork()
+        if child == 0:
+            os.read(told, 1)
+            os.write(into, b"same" if (frames["left"].rgba == before).all() else b"else")
+            os._exit(0)
+        del frames
+        for frames in self.take:
+            pass
+        os.write(telling, b"x")
+        self.assertEqual(os.read(out, 4), b"same")
+        os.waitpid(child, 0)
+        for each in (out, into, told, telling):
+            os.close(each)
+
+    def test_held_frame_sets_need_no_descriptors(self):
+        soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
+        resource.setrlimit(resource.RLIMIT_NOFILE, (64, hard))
+        self.addCleanup(resource.setrlimit, resource.RLIMIT_NOFILE, (soft, hard))
+        held = [frames for _ in range(6) for frames in self.take]
+        self.assertEqual(len(held), 90)
+        np.testing.assert_array_equal(held[0]["left"].rgba, held[75]["left"].rgba)
+        with self.assertRaises(ValueError):
+            held[0]["left"].rgba.flags.writeable = True
 
     def test_is_a_sequence(self):
         self.assertEqual([frames.pulse for frames in self.take], list(self.take.pulses))
@@ -182,10 +256,46 @@ class ExampleTest(unittest.TestCase):
             self.check_colmap(Path(folder) / "colmap")
             cloud = (Path(folder) / "points.ply").read_bytes()
             self.assertTrue(cloud.startswith(b"ply\nformat binary_little_endian 1.0\n"))
-            transforms = json.loads((Path(folder) / "gsplat" / "transforms.json").read_text())
-            self.assertEqual(len(transforms["frames"]), 2)
-            self.assertTrue((Path(folder) / "gsplat" / transforms["ply_file_path"]).exists())
-            self.assertTrue((Path(folder) / "gsplat" / transforms["frames"][0]["file_path"]).exists())
+            for name in ("gsplat", "nerfstudio"):
+                with self.subTest(name):
+                    self.check_transforms(Path(folder) / name)
+
+    def test_the_export_for_training_has_the_same_conventions(self):
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name) / "training"
+            subprocess.run(
+                [PROGRAMS / "vantage", "take", "export", TAKE, "--as", "training", "--to", "0.2"]
+                + ["-o", folder],
+                check=True,
+                capture_output=True,
+            )
+            self.check_transforms(folder / "000000")
+
+    def check_transforms(self, folder):
+        """The points of the cloud are where transforms.json and the pictures have them.
+
+        Trainers read a pose as OpenGL's: x right, y up, looking along -z; the corner of a picture
+        is at (0, 0). Any other convention puts points on pixels of other colours.
+        """
+        document = json.loads((folder / "transforms.json").read_text())
+        self.assertIn(document["camera_model"], ("OPENCV", "PINHOLE"), "those of COLMAP")
+        self.assertEqual(len(document["frames"]), 2)
+        positions, colours = read_ply(folder / document["ply_file_path"])
+        self.assertGreater(len(positions), 500)
+        own = []
+        for frame in document["frames"]:
+            with Image.open(folder / frame["file_path"]) as image:
+                self.assertEqual(image.size, (frame["w"], frame["h"]))
+                picture = np.asarray(image.convert("RGB"))
+            pose = np.array(frame["transform_matrix"])
+            np.testing.assert_allclose(pose[:3, :3] @ pose[:3, :3].T, np.eye(3), atol=1e-9)
+            self.assertAlmostEqual(np.linalg.det(pose[:3, :3]), 1)
+            own.append(hits(frame, pose, picture, positions, colours))
+            turned = pose @ np.diag([1, -1, -1, 1])
+            self.assertLess(hits(frame, turned, picture, positions, colours).mean(), 0.1)
+            shifted = dict(frame, cx=frame["cx"] - 0.5, cy=frame["cy"] - 0.5)
+            self.assertLess(hits(shifted, pose, picture, positions, colours).sum(), own[-1].sum() * 0.9)
+        self.assertGreater(np.logical_or(*own).mean(), 0.99, "a picture has every point")
 
     def check_nerfstudio(self, folder):
         frames = json.loads((folder / "transforms.json").read_text())["frames"]

@@ -90,7 +90,10 @@ def jpeg(colour):
 
 
 class FakeHost(ThreadingHTTPServer):
-    """A host whose state stands still. `commands` are those that it was given."""
+    """A host whose state stands still. `commands` are those that it was given; it refuses them with
+    `refusal`."""
+
+    refusal = ""
 
     def __init__(self, state):
         self.state, self.commands = state, []
@@ -140,6 +143,8 @@ class Handler(BaseHTTPRequestHandler):
         self.server.got_command.set()
         if self.path == "/login":
             self.answer(401, "text/plain", b"that is not the PIN\n")
+        elif self.server.refusal:
+            self.answer(400, "text/plain", self.server.refusal.encode())
         else:
             self.answer(204, "text/plain", b"")
 
@@ -276,6 +281,23 @@ class PageTest(unittest.TestCase):
             "(box => [box.x, box.y, box.width])(document.getElementById('rigpicture').getBoundingClientRect())"
         )
         self.assertEqual(box, [0, 0, SIZES["phone"][0]])
+
+    def test_a_tablet_shows_all_keys_at_once(self):
+        page = self.opened("tablet", STATE)
+        bottoms = [y + high for tag, _, y, _, high in page.value(BOXES) if tag.startswith("button")]
+        self.assertLessEqual(max(bottoms), SIZES["tablet"][1])
+
+    def test_a_refused_command_is_told_where_it_is_seen(self):
+        page = self.opened("phone", STATE)
+        self.host.refusal = "there is no take to hold"
+        page.value("document.querySelector('#transport button').click()")
+        page.wait_for("document.getElementById('said').textContent !== ''")
+        self.assertEqual(page.value("document.getElementById('said').textContent"), self.host.refusal)
+        top, bottom = page.value(
+            "(box => [box.top, box.bottom])(document.getElementById('said').getBoundingClientRect())"
+        )
+        self.assertGreaterEqual(top, 0)
+        self.assertLessEqual(bottom, SIZES["phone"][1])
 
     def focused(self, page):
         return page.value(

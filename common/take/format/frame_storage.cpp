@@ -83,7 +83,7 @@ FrameRestorer::FrameRestorer(const TakeRig& rig) : rig_(rig) {
     if (is_ffv1(rig_.depth)) depth_.emplace(rig_.depth.size_px, CV_16UC1, rig_.depth.setup);
 }
 
-RigFrame FrameRestorer::restore(const StoredFrame& stored) {
+RigFrame FrameRestorer::restore(const StoredFrame& stored, FrameMemory memory) {
     FrameHead head = decode_frame_head(stored.record.header);
     RigFrame& frame = head.frame;
     if (frame.rig != rig_.name)
@@ -96,16 +96,16 @@ RigFrame FrameRestorer::restore(const StoredFrame& stored) {
         (has_depth && head.disparity_px != rig_.depth.size_px))
         fail("a frame of rig {} does not fit its tracks", rig_.name);
     if (has_colour && colour_) {
-        frame.colour = ColourImage(colour_->decode(stored.colour));
+        frame.colour = ColourImage(colour_->decode(stored.colour, std::move(memory.colour)));
     } else if (has_colour) {
         const ColourParts parts = colour_parts(head, stored.colour);
-        frame.colour =
-            jpeg_.decode(parts.left, rig_.colour.size_px.width, rig_.colour.size_px.height);
+        frame.colour = jpeg_.decode(parts.left, rig_.colour.size_px.width,
+                                    rig_.colour.size_px.height, std::move(memory.colour));
         frame.right_jpeg = shared(parts.right);
     }
     if (has_depth) {
         if (!depth_) fail("a frame of rig {} has a disparity that is not FFV1", rig_.name);
-        frame.disparity = depth_->decode(stored.depth);
+        frame.disparity = depth_->decode(stored.depth, std::move(memory.disparity));
     }
     return std::move(frame);
 }

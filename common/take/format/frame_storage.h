@@ -29,13 +29,20 @@ class FrameStorer {
     DisparityDecoder disparity_;
 };
 
+/// Memory to decode a frame into: images of the size of the tracks. Where one is empty, the decoder
+/// allocates it.
+struct FrameMemory {
+    ColourImage colour;
+    DisparityImage disparity;
+};
+
 /// Decodes stored frames to what the host would have decoded, bit for bit. Not thread-safe.
 class FrameRestorer {
   public:
     explicit FrameRestorer(const TakeRig& rig);
 
     /// Throws Error if the frame is damaged.
-    RigFrame restore(const StoredFrame& frame);
+    RigFrame restore(const StoredFrame& frame, FrameMemory memory = {});
 
   private:
     TakeRig rig_;

@@ -103,7 +103,7 @@ LosslessPictureDecoder::LosslessPictureDecoder(cv::Size size_px, int type,
     packet_.reset(av_packet_alloc());
 }
 
-cv::Mat LosslessPictureDecoder::decode(std::span<const std::byte> bytes) {
+cv::Mat LosslessPictureDecoder::decode(std::span<const std::byte> bytes, cv::Mat memory) {
     check(av_new_packet(packet_.get(), static_cast<int>(bytes.size())), "allocate memory");
     std::memcpy(packet_->data, bytes.data(), bytes.size());
     const int sent = avcodec_send_packet(codec_.get(), packet_.get());
@@ -116,7 +116,7 @@ cv::Mat LosslessPictureDecoder::decode(std::span<const std::byte> bytes) {
         av_frame_unref(frame_.get());
         fail("a lossless image of {} bytes is damaged", bytes.size());
     }
-    cv::Mat picture(size_px_, type_);
+    cv::Mat picture = memory.empty() ? cv::Mat(size_px_, type_) : std::move(memory);
     const auto row_bytes = static_cast<std::size_t>(picture.cols) * picture.elemSize();
     for (int y = 0; y < picture.rows; ++y) {
         std::memcpy(picture.ptr(y),

@@ -31,8 +31,9 @@ class LosslessPictureDecoder {
   public:
     LosslessPictureDecoder(cv::Size size_px, int type, std::span<const std::byte> setup);
 
-    /// Throws Error unless the bytes are exactly one complete image.
-    cv::Mat decode(std::span<const std::byte> bytes);
+    /// Throws Error unless the bytes are exactly one complete image. Decodes into `memory`, an
+    /// image of the decoder's size and type, unless it is empty.
+    cv::Mat decode(std::span<const std::byte> bytes, cv::Mat memory = {});
 
   private:
     cv::Size size_px_;

@@ -58,7 +58,8 @@ std::string JpegDecoder::trouble() {
     return sentence;
 }
 
-ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px, int height_px) {
+ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px, int height_px,
+                                ColourImage memory) {
     const auto* data = reinterpret_cast<const unsigned char*>(payload.data());
     int width = 0;
     int height = 0;
@@ -71,7 +72,8 @@ ColourImage JpegDecoder::decode(std::span<const std::byte> payload, int width_px
         fail("the colour payload is a JPEG of {}x{} where its header promises {}x{}", width, height,
              width_px, height_px);
     if (colour_space != TJCS_YCbCr) fail("the colour payload is a JPEG, but not in YCbCr");
-    auto colour = pictures_.take<ColourImage>({width_px, height_px});
+    ColourImage colour =
+        memory.empty() ? pictures_.take<ColourImage>({width_px, height_px}) : std::move(memory);
     // The library only warns about a truncated image and fills it with grey. The scan limit stops
     // a hostile progressive image with endless scans.
     if (tjDecompress2(decompressor_, data, payload.size(), colour.data, width_px,

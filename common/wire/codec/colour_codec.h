@@ -36,8 +36,10 @@ class JpegDecoder {
     JpegDecoder& operator=(const JpegDecoder&) = delete;
 
     /// Throws Error unless the payload is one complete colour JPEG of exactly this size. Checks the
-    /// header before it allocates memory.
-    ColourImage decode(std::span<const std::byte> payload, int width_px, int height_px);
+    /// header before it allocates memory. Decodes into `memory`, an image of this size, unless it
+    /// is empty.
+    ColourImage decode(std::span<const std::byte> payload, int width_px, int height_px,
+                       ColourImage memory = {});
 
     /// The chroma subsampling of a valid payload. Throws Error if it is not one that rigs send.
     Chroma chroma_of(std::span<const std::byte> payload);

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -78,6 +80,73 @@ TEST(FrameServer, OfAnyAddressIsReachedOverBothFamilies) {
         if (!fd) continue;  // no IPv6 here
         EXPECT_EQ(::connect(fd.get(), address.get(), address.size), 0) << host;
     }
+}
+
+/// A host that says what it is told to, and hears one message at a time.
+class TalkingHost {
+  public:
+    TalkingHost(const std::string& endpoint, const CurveKeys& keys, const std::string& rig_key)
+        : socket_(context_, zmq::socket_type::dealer) {
+        socket_.set(zmq::sockopt::linger, 0);
+        socket_.set(zmq::sockopt::curve_serverkey, rig_key);
+        socket_.set(zmq::sockopt::curve_publickey, keys.public_key);
+        socket_.set(zmq::sockopt::curve_secretkey, keys.secret_key);
+        socket_.connect(endpoint);
+    }
+    /// Speaks until the answer is, or is not, a refusal. Returns the refusal.
+    std::string speak_until(bool is_refused) {
+        HostMessage request;
+        request.host_id = 1;
+        while (true) {
+            socket_.send(zmq::buffer(encode(request)), zmq::send_flags::none);
+            zmq::message_t answer;
+            EXPECT_TRUE(socket_.recv(answer));
+            const RigMessage message =
+                decode_rig_message({answer.data<std::byte>(), answer.size()});
+            if (message.refusal.empty() != is_refused) return message.refusal;
+        }
+    }
+
+  private:
+    zmq::context_t context_;
+    zmq::socket_t socket_;
+};
+
+TEST(FrameServer, StopsServingAConnectedHostWhoseKeyIsRemoved) {
+    const TemporaryFolder folder;
+    const CurveKeys rig = generate_curve_keys(), first = generate_curve_keys(),
+                    second = generate_curve_keys();
+    FrameServer::Settings settings;
+    settings.bind = "tcp://127.0.0.1:*";
+    settings.key_file = folder.path() / "rig.key";
+    settings.authorized_hosts = folder.path() / "hosts.keys";
+    write_key_file(settings.key_file, rig);
+    const auto list = [&](const std::string& text) {
+        write_text_atomically(settings.authorized_hosts, text);
+        // A file system may keep times too coarse for two changes at once.
+        static int changes = 0;
+        std::filesystem::last_write_time(
+            settings.authorized_hosts,
+            std::filesystem::file_time_type::clock::now() + std::chrono::seconds(++changes));
+    };
+    list(first.public_key + "\n" + second.public_key + "\n");
+    FrameServer server(settings, "rig-a", 42);
+    TalkingHost removed(server.endpoint(), first, rig.public_key),
+        kept(server.endpoint(), second, rig.public_key);
+    removed.speak_until(false);
+    kept.speak_until(false);
+    list(second.public_key + "\n");
+    EXPECT_NE(removed.speak_until(true).find("rig rig-a no longer admits this host"),
+              std::string::npos);
+    kept.speak_until(false);
+    EXPECT_EQ(server.change([](HostLinks& links) {
+        std::size_t attached = 0;
+        for (const HostLinks::HostStatus& host : links.hosts()) attached += host.attached;
+        return attached;
+    }),
+              1u);
+    list(first.public_key + "\n" + second.public_key + "\n");
+    removed.speak_until(false);
 }
 
 // ZeroMQ aborts the program (libzmq issue 3442) where a connection breaks at the moment at which

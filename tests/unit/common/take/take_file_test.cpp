@@ -90,6 +90,20 @@ TEST_F(TakeFileTest, KeepsLosslessColourBitForBit) {
         same_pixels(then.colour, decoded(sent_frame("north", first_pulse, lossless)).colour));
 }
 
+TEST_F(TakeFileTest, DecodesIntoGivenMemory) {
+    for (const int quality : {0, 85}) {
+        const PackedFrame sent = sent_frame("north", first_pulse, quality);
+        const TakeRig rig = small_facts({"north"}, first_pulse, quality).rigs[0];
+        const FrameMemory memory{ColourImage(rig.colour.size_px),
+                                 DisparityImage(rig.depth.size_px)};
+        const RigFrame frame = FrameRestorer(rig).restore(FrameStorer(rig).store(sent), memory);
+        EXPECT_EQ(frame.colour.data, memory.colour.data) << quality;
+        EXPECT_EQ(frame.disparity.data, memory.disparity.data) << quality;
+        EXPECT_TRUE(same_pixels(memory.colour, decoded(sent).colour)) << quality;
+        EXPECT_TRUE(same_pixels(memory.disparity, decoded(sent).disparity)) << quality;
+    }
+}
+
 TEST_F(TakeFileTest, IsReadableByFfmpeg) {
     constexpr int frames = 12;
     write_small_take(take_, two_rigs, first_pulse, first_pulse + frames - 1);

@@ -238,6 +238,11 @@ TEST_F(EditListTest, DropFrameCodeSkipsNumbers) {
     EXPECT_EQ(edit.events[0].frames, 30);
     EXPECT_NE(text.find(" 10:00:59;28 10:01:01;00 01:00:00;00 01:00:01;00"), std::string::npos)
         << text;
+    const std::size_t motion = text.find("\nM2 ");
+    ASSERT_NE(motion, std::string::npos) << text;
+    EXPECT_EQ(text.substr(motion + 1, text.find('\n', motion + 1) - motion).find(';'),
+              std::string::npos)
+        << "readers take colons only in this line";
     EXPECT_DOUBLE_EQ(otio(edit)["global_start_time"]["rate"], 30000 / 1001.0);
     EXPECT_EQ(otio(edit)["global_start_time"]["value"], 107'892);
 }
