@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/base/error.h"
+#include "common/base/time/time_zone.h"
 #include "common/base/time/timecode.h"
 #include "host_app/replay/past_time.h"
 
@@ -19,7 +20,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     constexpr double rates_hz[] = {25, 29.97, 59.94, 120};
     // A minute around the change from summer time in Europe.
-    constexpr double unix_s = 1'793'062'800;
+    constexpr double unix_s = 1'792'890'000;
+    static const bool is_zone_set = (use_time_zone("Europe/Berlin"), true);
+    if (!is_zone_set) return 0;
     for (const double rate_hz : rates_hz) {
         const auto oldest = static_cast<std::uint64_t>(unix_s * rate_hz);
         const PastFrameSets::Span past{.oldest = oldest,
