@@ -10,6 +10,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace vantage;
     const std::string text(reinterpret_cast<const char*>(data), size);
+    if (text.find('\0') != std::string::npos) return 0;  // no command line has one
     OutputUrl url;
     try {
         url = OutputUrl::parse(text);
