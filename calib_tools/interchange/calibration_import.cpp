@@ -32,24 +32,31 @@ std::string names_of(const std::vector<FormCamera>& cameras) {
                        rest > 0 ? fmt::format(" and {} more", rest) : "");
 }
 
+std::string in_small_letters(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// The cameras whose names contain this word.
+std::vector<const FormCamera*> cameras_with(const std::vector<FormCamera>& cameras,
+                                            const std::string& word) {
+    std::vector<const FormCamera*> found;
+    for (const FormCamera& camera : cameras)
+        if (in_small_letters(camera.name).find(in_small_letters(word)) != std::string::npos)
+            found.push_back(&camera);
+    return found;
+}
+
+/// The camera of this name, or the only one whose name contains it, such as a path's last part.
 const FormCamera& camera_named(const std::vector<FormCamera>& cameras, const std::string& name,
                                const char* option) {
     for (const FormCamera& camera : cameras)
         if (camera.name == name) return camera;
-    fail("there is no camera '{}' for {}: the files have {}", name, option, names_of(cameras));
-}
-
-/// The only camera whose name contains this word; null if there is none or several.
-const FormCamera* only_camera_with(const std::vector<FormCamera>& cameras, const char* word) {
-    const FormCamera* found = nullptr;
-    for (const FormCamera& camera : cameras) {
-        std::string name = camera.name;
-        for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        if (name.find(word) == std::string::npos) continue;
-        if (found) return nullptr;
-        found = &camera;
-    }
-    return found;
+    const std::vector<const FormCamera*> found = cameras_with(cameras, name);
+    if (found.size() == 1) return *found.front();
+    fail("{} '{}' for {}: the files have {}",
+         found.empty() ? "there is no camera" : "several cameras have names with", name, option,
+         names_of(cameras));
 }
 
 struct ChosenPair {
@@ -101,9 +108,12 @@ ChosenPair choose_pair(const std::vector<FormCamera>& cameras, const ImportSetti
         left = &cameras[0];
         right = &cameras[1];
     } else {
-        left = only_camera_with(cameras, "left");
-        right = only_camera_with(cameras, "right");
-        if (!left || !right || left == right)
+        const auto lefts = cameras_with(cameras, "left"), rights = cameras_with(cameras, "right");
+        if (lefts.size() == 1 && rights.size() == 1) {
+            left = lefts.front();
+            right = rights.front();
+        }
+        if (!left || left == right)
             fail(
                 "the files have {} cameras: name the two of the rig with --left and --right; they "
                 "are {}",
@@ -182,7 +192,9 @@ ReadCalibration read_calibration(std::span<const FormFile> files, const ImportSe
             fail("{} is a calibration of {}, and {} is not: give the files of one calibration",
                  files.front().path.string(), form->program, file.path.string());
     FormCalibration read = form->read(files, settings.form);
-    if (read.cameras.empty()) fail("{} holds no camera", files.front().path.string());
+    if (read.cameras.empty())
+        fail("{} holds no camera that can be taken; left out: {}", files.front().path.string(),
+             fmt::join(read.left_out, "; "));
     return {*form, std::move(read)};
 }
 

@@ -54,11 +54,7 @@ double FormMap::number(const std::string& key, double otherwise) const {
 }
 
 int FormMap::pixels(const std::string& key) const {
-    const double side = number(key);
-    constexpr double largest = 100'000;
-    if (!(side >= 1 && side <= largest) || side != std::floor(side))
-        fail("{}: '{}' is {}, and must be a whole number of pixels", where, key, side);
-    return static_cast<int>(side);
+    return whole_pixels(number(key), fmt::format("{}: '{}'", where, key));
 }
 
 std::vector<double> FormMap::numbers(const std::string& key) const {
@@ -86,6 +82,13 @@ Pose FormMap::pose(const std::string& key) const {
         fail("{}: '{}' holds {} numbers and must have 3 or 4 rows of 4", where, key, rows.size());
     const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> matrix(rows.data());
     return checked_pose(matrix.leftCols<3>(), matrix.col(3), fmt::format("{}: '{}'", where, key));
+}
+
+int whole_pixels(double side, const std::string& where) {
+    constexpr double largest = 100'000;
+    if (!(side >= 1 && side <= largest) || side != std::floor(side))
+        fail("{} is {}, and must be a whole number of pixels", where, side);
+    return static_cast<int>(side);
 }
 
 Eigen::Matrix3d matrix3_of(const std::vector<double>& numbers) {

@@ -35,6 +35,10 @@ struct FormMap {
     Pose pose(const std::string& key) const;
 };
 
+/// A side of a picture. Throws Error, beginning with `where`, unless it is a whole number of
+/// pixels.
+int whole_pixels(double side, const std::string& where);
+
 /// Row by row, from nine numbers.
 Eigen::Matrix3d matrix3_of(const std::vector<double>& numbers);
 /// Throws Error, beginning with `where`, unless the left part is a rotation (to a thousandth, and

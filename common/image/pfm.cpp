@@ -6,6 +6,7 @@
 #include <cstring>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/base/error.h"
@@ -42,12 +43,13 @@ cv::Mat1f read_pfm(const std::filesystem::path& path) {
     // A file that ends with the scale has no samples at all, and no place where they would start.
     std::size_t start = in.eof() ? bytes.size() : static_cast<std::size_t>(in.tellg()) + 1;
     const std::size_t row_bytes = static_cast<std::size_t>(width) * sizeof(float);
-    // Writers on Windows end the header's lines with CR LF. A sample may begin with LF too, so the
-    // file's size decides.
+    // Some writers end the header with CR LF, or with blanks. A sample may begin with such a byte
+    // too, so the file's size decides.
     const std::size_t whole = row_bytes * static_cast<std::size_t>(height);
-    if (start < bytes.size() && bytes[start - 1] == std::byte{'\r'} &&
-        bytes[start] == std::byte{'\n'} && bytes.size() - start == whole + 1)
-        ++start;
+    if (bytes.size() > start + whole && bytes.size() < max_header_bytes + whole) {
+        const std::string_view surplus(head.data() + start, bytes.size() - start - whole);
+        if (surplus.find_first_not_of(" \t\r\n") == std::string_view::npos) start += surplus.size();
+    }
     if (bytes.size() < start ||
         bytes.size() - start != row_bytes * static_cast<std::size_t>(height))
         fail("{} should hold {} bytes of samples for {}x{} and holds {}", path.string(),

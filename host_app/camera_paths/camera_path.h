@@ -19,11 +19,14 @@ struct CameraPath {
 
 /// Settings that a camera file may lack.
 struct CameraPathSettings {
-    double rate_hz = 25;           ///< of its cameras; of an animation: at which it is looked at
-    cv::Size size_px{1920, 1080};  ///< where the file says none
-    double focus_m = 4.5;          ///< where the file says none
+    /// Rate of its cameras, or at which an animation is sampled; empty: the file's, else 25 Hz.
+    std::optional<double> rate_hz = {};
+    cv::Size size_px{1920, 1080};                  ///< where the file says none
+    double focus_m = 4.5;                          ///< where the file says none
     std::optional<double> field_of_view_rad = {};  ///< instead of what the file says
 };
+
+constexpr double default_camera_rate_hz = 25;
 
 /// Most cameras that a file may have: ten minutes at 60 a second, and some.
 constexpr std::size_t most_cameras = 40'000;

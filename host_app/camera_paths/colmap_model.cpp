@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -12,6 +10,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/calibration_forms/colmap_images.h"
 #include "common/image/picture_list.h"
 #include "host_app/camera_paths/camera_path_file.h"
 
@@ -54,93 +53,6 @@ std::map<int, Lens> lenses_of(const std::string& text, const std::filesystem::pa
     return lenses;
 }
 
-struct ColmapImage {
-    Pose camera_from_world;
-    int camera = 0, line = 0;
-    std::string name;  ///< the rest of its line: it may have spaces
-};
-
-/// The images of an images.txt. COLMAP writes two lines an image, of which the second holds the
-/// points; other programs leave that line out, or empty, or end lines with CR LF.
-class ColmapImages {
-  public:
-    ColmapImages(const std::string& text, std::filesystem::path file)
-        : lines_(text), file_(std::move(file)) {}
-
-    /// Throws Error for a line that is neither an image nor the points of the one before it.
-    std::optional<ColmapImage> next() {
-        while (next_line()) {
-            if (line_.empty()) {
-                may_be_points_ = false;
-                continue;
-            }
-            if (line_[0] == '#') {
-                note_stated_count();
-                continue;
-            }
-            if (may_be_points_ && is_points()) {
-                may_be_points_ = false;
-                continue;
-            }
-            may_be_points_ = true;
-            return image();
-        }
-        return std::nullopt;
-    }
-    /// The number of images in the header ("# Number of images: 12, ..."), if it is there.
-    std::optional<std::size_t> stated_count() const { return stated_count_; }
-
-  private:
-    bool next_line() {
-        if (!std::getline(lines_, line_)) return false;
-        ++number_;
-        line_.erase(line_.find_last_not_of(" \t\r") + 1);
-        line_.erase(0, std::min(line_.find_first_not_of(" \t"), line_.size()));
-        return true;
-    }
-    void note_stated_count() {
-        constexpr std::string_view words = "# Number of images:";
-        std::size_t count = 0;
-        if (line_.starts_with(words) && std::istringstream(line_.substr(words.size())) >> count)
-            stated_count_ = count;
-    }
-    /// Triples of numbers: a place in the picture and the number of a point.
-    bool is_points() const {
-        std::istringstream words(line_);
-        std::size_t numbers = 0;
-        for (std::string word; words >> word; ++numbers) {
-            char* end = nullptr;
-            std::strtod(word.c_str(), &end);
-            if (*end != '\0') return false;
-        }
-        return numbers % 3 == 0;
-    }
-    ColmapImage image() const {
-        std::istringstream words(line_);
-        ColmapImage image;
-        image.line = number_;
-        int id = 0;
-        Eigen::Quaterniond q;
-        Eigen::Vector3d t;
-        if (!(words >> id >> q.w() >> q.x() >> q.y() >> q.z() >> t.x() >> t.y() >> t.z() >>
-              image.camera >> std::ws) ||
-            !std::getline(words, image.name) || !q.coeffs().allFinite() || !t.allFinite() ||
-            !(q.norm() > 0.5 && q.norm() < 2))
-            fail("{}:{}: this is no image of COLMAP", file_.string(), number_);
-        image.camera_from_world = Pose::Identity();
-        image.camera_from_world.linear() = q.normalized().toRotationMatrix();
-        image.camera_from_world.translation() = t;
-        return image;
-    }
-
-    std::istringstream lines_;
-    std::filesystem::path file_;
-    std::string line_;
-    int number_ = 0;
-    bool may_be_points_ = false;  ///< the line after an image
-    std::optional<std::size_t> stated_count_;
-};
-
 void write(const CameraPath& path, const std::filesystem::path& file) {
     if (std::filesystem::exists(cameras_beside(file)))
         fail("{} is there already: give images.txt a folder of its own",
@@ -175,7 +87,7 @@ void write(const CameraPath& path, const std::filesystem::path& file) {
 CameraPath colmap_path_of(const std::string& images, const std::string& cameras,
                           const std::filesystem::path& file, const CameraPathSettings& settings) {
     const std::map<int, Lens> lenses = lenses_of(cameras, cameras_beside(file));
-    CameraPath path{settings.rate_hz, settings.size_px, {}};
+    CameraPath path{settings.rate_hz.value_or(default_camera_rate_hz), settings.size_px, {}};
     std::vector<std::pair<std::string, CameraState>> named;
     ColmapImages lines(images, file);
     while (const std::optional<ColmapImage> image = lines.next()) {
@@ -192,10 +104,6 @@ CameraPath colmap_path_of(const std::string& images, const std::string& cameras,
                     settings.field_of_view_rad.value_or(found->second.field_of_view_rad), file),
                 settings.focus_m});
     }
-    if (const std::optional<std::size_t> stated = lines.stated_count();
-        stated && *stated != named.size())
-        fail("{} states {} images and {} could be read: the file is damaged or cut off",
-             file.string(), *stated, named.size());
     require_cameras(named.size(), file);
     std::stable_sort(named.begin(), named.end(), [](const auto& a, const auto& b) {
         return is_naturally_before(a.first, b.first);

@@ -18,7 +18,7 @@ CameraPath freed_path_of(std::span<const std::byte> bytes, const std::filesystem
         fail("{} has {} bytes, which is no whole number of FreeD messages of {}", file.string(),
              bytes.size(), freed_bytes);
     require_cameras(bytes.size() / freed_bytes, file);
-    CameraPath path{settings.rate_hz, settings.size_px, {}};
+    CameraPath path{settings.rate_hz.value_or(default_camera_rate_hz), settings.size_px, {}};
     for (std::size_t at = 0; at < bytes.size(); at += freed_bytes) {
         const std::optional<FreedCamera> message = decode_freed(bytes.subspan(at, freed_bytes));
         if (!message)

@@ -443,16 +443,16 @@ void write(const CameraPath& path, const std::filesystem::path& file) {
 
 CameraPath gltf_path_of(std::span<const std::byte> bytes, const std::filesystem::path& file,
                         const CameraPathSettings& settings) {
-    CameraPath path{settings.rate_hz, settings.size_px, {}};
+    CameraPath path{settings.rate_hz.value_or(default_camera_rate_hz), settings.size_px, {}};
     try {
         GltfFile gltf(bytes, file);
         const GltfCamera camera(gltf, file);
         const double aspect = static_cast<double>(settings.size_px.width) / settings.size_px.height;
         constexpr double rounding = 1e-4;  // of a float's times
-        const double count = std::floor(camera.end_s() * settings.rate_hz + rounding) + 1;
+        const double count = std::floor(camera.end_s() * path.rate_hz + rounding) + 1;
         require_cameras(static_cast<std::size_t>(std::clamp(count, 0.0, 1e9)), file);
         for (int i = 0; i < static_cast<int>(count); ++i) {
-            const double time_s = i / settings.rate_hz;
+            const double time_s = i / path.rate_hz;
             CameraState state{camera.at(time_s),
                               checked_field_of_view(settings.field_of_view_rad.value_or(
                                                         camera.field_of_view_rad(time_s, aspect)),

@@ -55,6 +55,17 @@ AxialSystem axial_system(const nlohmann::json& json, const std::filesystem::path
     return is_opengl ? AxialSystem{same, turned_about_x} : AxialSystem{turned_about_x, same};
 }
 
+/// The cameras per second that the file states (TMIV: Fps), else the default. Throws Error.
+double stated_rate_hz(const nlohmann::json& json, const std::filesystem::path& file) {
+    if (!json.contains("Fps")) return default_camera_rate_hz;
+    const double rate_hz = json.at("Fps").get<double>();
+    constexpr double highest_hz = 1000;
+    if (!(rate_hz > 0 && rate_hz <= highest_hz))
+        fail("{}: 'Fps' is {}, and must be above 0 and at most {}", file.string(), rate_hz,
+             highest_hz);
+    return rate_hz;
+}
+
 /// Yaw, pitch and roll in degrees: about z, then y, then x.
 Eigen::Vector3d euler_deg(const Eigen::Matrix3d& r) {
     const double pitch = std::asin(std::clamp(-r(2, 0), -1.0, 1.0));
@@ -111,11 +122,17 @@ nlohmann::ordered_json omaf_camera(const std::string& name, const Pose& world_fr
 
 CameraPath omaf_path_of(const std::string& text, const std::filesystem::path& file,
                         const CameraPathSettings& settings) {
-    CameraPath path{settings.rate_hz, settings.size_px, {}};
+    CameraPath path{default_camera_rate_hz, settings.size_px, {}};
     try {
         const nlohmann::json json = nlohmann::json::parse(text);
         require_cameras(json.at("cameras").size(), file);
         const AxialSystem axes = axial_system(json, file);
+        path.rate_hz = settings.rate_hz ? *settings.rate_hz : stated_rate_hz(json, file);
+        if (!json.value("lengthsInMeters", true))
+            log_warning(
+                "{} states lengths in another unit than metres, and does not say which: they are "
+                "taken as metres",
+                file.string());
         for (const nlohmann::json& camera : json.at("cameras")) {
             if (camera.at("Projection").get<std::string>() != "Perspective")
                 fail("{}: the camera {} is {}, and only Perspective is flown", file.string(),

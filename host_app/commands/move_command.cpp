@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -21,7 +22,7 @@ namespace {
 constexpr double rad = std::numbers::pi / 180;
 
 struct MoveOptions {
-    std::string from, to, rate = "25", size = "1920x1080";
+    std::string from, to, rate, size = "1920x1080";
     double tolerance_mm = 10, tolerance_deg = 0.1, focus_m = 4.5, field_of_view_deg = 0;
     bool json = false;
 };
@@ -30,7 +31,8 @@ bool is_flight_file(const std::filesystem::path& file) { return file.extension()
 
 void convert(const MoveOptions& options) {
     const std::filesystem::path from = options.from, to = options.to;
-    const double rate_hz = parse_rate(options.rate);
+    std::optional<double> rate_hz;
+    if (!options.rate.empty()) rate_hz = parse_rate(options.rate);
     const cv::Size size_px = parse_size(options.size);
     require_writable_output(to, {from});
     if (std::filesystem::exists(to)) fail("{} exists; give another name", to.string());
@@ -40,7 +42,7 @@ void convert(const MoveOptions& options) {
     nlohmann::ordered_json result{{"path", to.string()}};
     CameraPath path;
     if (is_flight_file(from)) {
-        path = sampled(Move::load(from), rate_hz, size_px);
+        path = sampled(Move::load(from), rate_hz.value_or(default_camera_rate_hz), size_px);
     } else {
         CameraPathSettings settings{rate_hz, size_px, options.focus_m};
         if (options.field_of_view_deg > 0)
@@ -48,6 +50,7 @@ void convert(const MoveOptions& options) {
         path = form_of(from).read(from, settings);
     }
     result["cameras"] = path.cameras.size();
+    result["rate_hz"] = path.rate_hz;
     result["duration_s"] = static_cast<double>(path.cameras.size() - 1) / path.rate_hz;
     if (is_flight_file(to)) {
         constexpr double mm = 1000;
@@ -81,10 +84,10 @@ CommandEntry move_command_entry() {
         command->add_option("FROM", options->from, forms)->required();
         command->add_option("-o,--output", options->to, "Write this file, which must not exist")
             ->required();
-        command
-            ->add_option("--rate", options->rate,
-                         "Set the cameras per second of a format other than a flight file")
-            ->capture_default_str();
+        command->add_option(
+            "--rate", options->rate,
+            "Set the cameras per second of a format other than a flight file (default: the file's "
+            "if it states it, else 25)");
         command
             ->add_option("--size", options->size,
                          "Set the size of the picture, WIDTHxHEIGHT, for formats that need it")

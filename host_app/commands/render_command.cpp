@@ -158,9 +158,13 @@ void render(const RenderOptions& options) {
         target = load_virtual_view(options.pose);
     }
     const bool is_hull = fall_back_to_outlines(options, set);
-    // The hull's surface is drawn like any other that has depth.
-    const std::string synthesiser =
-        is_hull && options.synthesiser == "hull" ? default_synthesiser : options.synthesiser;
+    std::string synthesiser = options.synthesiser;
+    if (is_hull && (synthesiser == "hull" || synthesiser == default_synthesiser)) {
+        // A hull bulges where no camera looks, so that surfaces of different views disagree there,
+        // and one that is computed for the target has neither gaps nor doubles.
+        if (earlier.empty()) set.views = {hull_view(set.views, set.outlines, target)};
+        synthesiser = default_synthesiser;
+    }
 
     const EglContext context;
     const GlInfo gl = GlInfo::query();

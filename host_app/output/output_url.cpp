@@ -26,6 +26,7 @@ std::string decoded(std::string_view text, const std::string& whole) {
         const char* from = text.data() + i + 1;
         if (i + 2 >= text.size() || std::from_chars(from, from + 2, byte, 16).ptr != from + 2)
             fail("{}: behind a % stand two hexadecimal digits, %25 for the sign itself", whole);
+        if (byte == 0) fail("{}: %00 cannot be a part of an option", whole);
         bytes += static_cast<char>(byte);
         i += 2;
     }
@@ -36,6 +37,15 @@ bool is_scheme(std::string_view text) {
     return text.size() > 1 && std::islower(static_cast<unsigned char>(text.front())) &&
            std::all_of(text.begin(), text.end(),
                        [](unsigned char c) { return std::isdigit(c) || std::islower(c); });
+}
+
+/// Whether the option holds a passphrase, also where its name is mistyped.
+bool is_secret(std::string name) {
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (name == "passphrase-file") return false;
+    for (const char* part : {"pass", "phrase", "secret", "key"})
+        if (name.find(part) != std::string::npos) return true;
+    return false;
 }
 
 std::vector<std::string> as_strings(std::initializer_list<std::string_view> words) {
@@ -78,7 +88,7 @@ OutputUrl OutputUrl::parse(const std::string& text, const std::string& kind) {
                 kind, front);
         url.options[name] = decoded(std::string_view(pair).substr(equals + 1), front);
         url.shown += fmt::format("{}{}={}", at == mark + 1 ? "?" : "&", name,
-                                 name == "passphrase" ? "***" : pair.substr(equals + 1));
+                                 is_secret(name) ? "***" : pair.substr(equals + 1));
         at = end + 1;
     }
     return url;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
 #include <vector>
 
 #include "common/base/error.h"
@@ -124,12 +125,12 @@ std::time_t choose(const std::string& text, const Words& words,
     if (!any)
         fail("{} is in the hour that is skipped when clocks are set forward: there is no such time",
              text);
-    if (of_day && of_day->size() > 1 && !words.utc_offset_s)
-        log_info(
-            "{} occurs twice, since clocks were set back: {} is taken; append Z or an offset such "
-            "as "
-            "+01:00 for the other",
-            text, utc_text(*chosen));
+    if (of_day && of_day->size() > 1 && !words.utc_offset_s) {
+        const std::time_t other = of_day->front() == *chosen ? of_day->back() : of_day->front();
+        constexpr std::size_t date = std::string_view("2026-10-25T").size();
+        log_info("{} occurs twice, since clocks were set back: {} is taken; say {} for the other",
+                 text, utc_text(*chosen), utc_text(other).substr(date));
+    }
     return chosen.value_or(*any);
 }
 

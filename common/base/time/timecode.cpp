@@ -103,15 +103,18 @@ std::optional<std::uint64_t> TimecodeClock::find(const TimeLabel& label, std::ui
     const auto shortest = static_cast<std::uint64_t>(shortest_s * grid_.rate_hz());
     if (*found < first + shortest) return found;
     const std::uint64_t from = std::max(first, *found - std::min(*found, longest));
-    if (find_last(label, from, *found - shortest, tai_offset_s)) {
-        const time_t utc_s = to_ns(grid_.time_of(*found)) / ns_per_second - tai_offset_s;
+    const auto other = find_last(label, from, *found - shortest, tai_offset_s);
+    if (!other) return found;
+    const auto utc_text = [&](std::uint64_t pulse) {
+        const time_t utc_s = to_ns(grid_.time_of(pulse)) / ns_per_second - tai_offset_s;
         tm utc{};
         gmtime_r(&utc_s, &utc);
-        log_info(
-            "{:02}:{:02}:{:02} occurs twice, since clocks were set back: {:02}:{:02}:{:02}Z is "
-            "taken; append Z or an offset such as +01:00 for the other",
-            label.hours, label.minutes, label.seconds, utc.tm_hour, utc.tm_min, utc.tm_sec);
-    }
+        return fmt::format("{:02}:{:02}:{:02}Z", utc.tm_hour, utc.tm_min, utc.tm_sec);
+    };
+    log_info(
+        "{:02}:{:02}:{:02} occurs twice, since clocks were set back: {} is taken; say {} for the "
+        "other",
+        label.hours, label.minutes, label.seconds, utc_text(*found), utc_text(*other));
     return found;
 }
 

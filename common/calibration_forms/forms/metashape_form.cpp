@@ -20,8 +20,8 @@ bool is_metashape(const FormFile& file) {
 CameraModel metashape_lens(const FormMap& sensor, const FormMap& lens) {
     CameraModel camera;
     const FormMap size = lens.has("resolution") ? lens.map("resolution") : sensor.map("resolution");
-    camera.width_px = static_cast<int>(xml_number(size, "width"));
-    camera.height_px = static_cast<int>(xml_number(size, "height"));
+    camera.width_px = whole_pixels(xml_number(size, "width"), size.where + ": 'width'");
+    camera.height_px = whole_pixels(xml_number(size, "height"), size.where + ": 'height'");
     const double f_px = lens.number("f");
     camera.fx_px = f_px + lens.number("b1", 0);
     camera.fy_px = f_px;
@@ -39,8 +39,21 @@ CameraModel metashape_lens(const FormMap& sensor, const FormMap& lens) {
     return camera;
 }
 
-std::map<std::string, CameraModel> metashape_sensors(const FormFile& file, const Tree& chunk) {
-    std::map<std::string, CameraModel> sensors;
+/// The lens of a sensor; a fault in place of it where it cannot be read.
+struct MetashapeSensor {
+    CameraModel lens;
+    std::string fault;
+};
+
+/// The adjusted calibration, else the last one, which is the initial one.
+const Tree& best_calibration(const std::vector<Tree>& lenses) {
+    for (const Tree& lens : lenses)
+        if (lens.value("@class", "") == "adjusted") return lens;
+    return lenses.back();
+}
+
+std::map<std::string, MetashapeSensor> metashape_sensors(const FormFile& file, const Tree& chunk) {
+    std::map<std::string, MetashapeSensor> sensors;
     if (!chunk.contains("sensors")) return sensors;
     for (const Tree& sensor : xml_children(chunk["sensors"], "sensor")) {
         FormMap map{sensor, file.name() + ", a sensor"};
@@ -48,11 +61,11 @@ std::map<std::string, CameraModel> metashape_sensors(const FormFile& file, const
         map.where = fmt::format("{}, sensor {}", file.name(), id);
         const std::vector<Tree> lenses = xml_children(sensor, "calibration");
         if (lenses.empty()) continue;
-        const Tree& lens = lenses.back();  // after the initial one the adjusted one
-        const FormMap lens_map{lens, map.where};
+        const FormMap lens_map{best_calibration(lenses), map.where};
         if (const std::string type = xml_attribute(lens_map, "type"); type != "frame")
-            fail("{}: lenses of the type '{}' are not read, only 'frame'", map.where, type);
-        sensors[id] = metashape_lens(map, lens_map);
+            sensors[id].fault = fmt::format("whose lens is of the type '{}', not 'frame'", type);
+        else
+            sensors[id].lens = metashape_lens(map, lens_map);
     }
     return sensors;
 }
@@ -88,7 +101,9 @@ FormCalibration read_metashape(std::span<const FormFile> files, const FormSettin
         result.assumed.push_back(fmt::format("{:.6g} m per unit, the scale of the chunk", scale));
     }
     if (chunks.size() > 1) result.left_out.emplace_back("all chunks but the first");
-    const std::map<std::string, CameraModel> sensors = metashape_sensors(file, chunk);
+    const std::map<std::string, MetashapeSensor> sensors = metashape_sensors(file, chunk);
+    if (chunk.contains("transform") || chunk.contains("components"))
+        result.left_out.emplace_back("the rotation and position of the chunk");
     if (!chunk.contains("cameras")) fail("{}: the chunk has no <cameras>", file.name());
     std::vector<Tree> cameras = xml_children(chunk["cameras"], "camera");
     for (const Tree& group : xml_children(chunk["cameras"], "group"))
@@ -96,18 +111,31 @@ FormCalibration read_metashape(std::span<const FormFile> files, const FormSettin
     for (const Tree& tree : cameras) {
         FormMap map{tree, file.name() + ", a camera"};
         FormCamera camera;
-        camera.name = xml_attribute(map, "label");
+        camera.name = xml_attribute(map, map.has("@label") ? "label" : "id");
         map.where = fmt::format("{}, camera '{}'", file.name(), camera.name);
+        const auto leave_out = [&](const std::string& reason) {
+            result.left_out.push_back(fmt::format("the camera '{}', {}", camera.name, reason));
+        };
         if (!map.has("transform")) {
-            result.left_out.push_back(
-                fmt::format("the camera '{}', which is not aligned", camera.name));
+            leave_out(map.has("@master_id")
+                          ? "whose place the file states only by the master of its rig"
+                          : "which is not aligned");
             continue;
         }
         const auto sensor = sensors.find(xml_attribute(map, "sensor_id"));
         if (sensor == sensors.end())
             fail("{}: its sensor {} has no calibration in the file", map.where,
                  xml_attribute(map, "sensor_id"));
-        camera.model = sensor->second;
+        if (!sensor->second.fault.empty()) {
+            leave_out(sensor->second.fault);
+            continue;
+        }
+        camera.model = sensor->second.lens;
+        if (map.number("orientation", 1) != 1)
+            result.left_out.push_back(
+                fmt::format("the orientation {} of the pictures of the camera '{}': give them as "
+                            "the sensor stands",
+                            map.number("orientation"), camera.name));
         const std::vector<double> m = map.numbers("transform", 16);
         Eigen::Matrix3d rotation;
         rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];

@@ -31,38 +31,67 @@ struct FrameValues {
     }
 };
 
-CameraModel frame_lens(const FrameValues& values) {
+/// The focal length of one axis; nothing if the file states neither it nor the angle of view.
+std::optional<double> frame_focal(const FrameValues& values, const char* key, const char* angle,
+                                  int side_px) {
+    if (values.has(key)) return values.number(key);
+    if (!values.has(angle)) return std::nullopt;
+    return 0.5 * side_px / std::tan(0.5 * values.number(angle));
+}
+
+/// The name of the lens model; instant-ngp writes a switch in place of it.
+std::string frame_model(const FrameValues& values) {
+    if (values.has("camera_model")) return values.with("camera_model").text("camera_model");
+    const auto is_set = [&](const char* key) {
+        return values.has(key) && values.with(key).at(key).is_boolean() &&
+               values.with(key).at(key).get<bool>();
+    };
+    if (is_set("is_fisheye")) return "OPENCV_FISHEYE";
+    return is_set("equirectangular") ? "EQUIRECTANGULAR" : "OPENCV";
+}
+
+CameraModel frame_lens(const FrameValues& values, const FormSettings& settings) {
     CameraModel camera;
-    camera.width_px = values.with("w").pixels("w");
-    camera.height_px = values.with("h").pixels("h");
-    if (!values.has("fl_x") && values.has("camera_angle_x"))
-        camera.fx_px = 0.5 * camera.width_px / std::tan(0.5 * values.number("camera_angle_x"));
-    else
-        camera.fx_px = values.number("fl_x");
-    camera.fy_px = values.number("fl_y", camera.fx_px);
+    if (!values.has("w") && !values.has("h")) {
+        if (!settings.size_px)
+            fail("{}: the file has no size of the pictures: state it with --size WIDTH HEIGHT",
+                 values.frame.where);
+        camera.width_px = settings.size_px->width;
+        camera.height_px = settings.size_px->height;
+    } else {
+        camera.width_px = values.with("w").pixels("w");
+        camera.height_px = values.with("h").pixels("h");
+    }
+    const auto fx = frame_focal(values, "fl_x", "camera_angle_x", camera.width_px);
+    const auto fy = frame_focal(values, "fl_y", "camera_angle_y", camera.height_px);
+    if (!fx && !fy)
+        fail("{}: there is no focal length: 'fl_x' and 'camera_angle_x' are missing",
+             values.frame.where);
+    camera.fx_px = fx ? *fx : *fy;
+    camera.fy_px = fy ? *fy : *fx;
     camera.cx_px = values.number("cx", 0.5 * camera.width_px) - half_pixel;
     camera.cy_px = values.number("cy", 0.5 * camera.height_px) - half_pixel;
-    const std::string model =
-        values.has("camera_model") ? values.with("camera_model").text("camera_model") : "OPENCV";
+    const std::string model = frame_model(values);
     const auto k = [&](const char* key) { return values.number(key, 0); };
-    if (model == "OPENCV_FISHEYE") {
+    if (model == "OPENCV_FISHEYE" || model == "FISHEYE") {
         camera.lens = LensModel::fisheye;
         camera.distortion = {k("k1"), k("k2"), k("k3"), k("k4")};
-    } else if (model == "OPENCV" || model == "PINHOLE" || model == "SIMPLE_PINHOLE") {
+    } else if (model == "OPENCV" || model == "PERSPECTIVE" || model == "PINHOLE" ||
+               model == "SIMPLE_PINHOLE" || model == "RADIAL" || model == "SIMPLE_RADIAL") {
         if (k("k4") != 0)
             fail("{}: its fourth radial coefficient is no coefficient of OpenCV's pinhole model",
                  values.frame.where);
         camera.distortion = usual_coefficients({k("k1"), k("k2"), k("p1"), k("p2"), k("k3")});
     } else {
         fail(
-            "{}: the camera model '{}' is not known to Vantage, only OPENCV, PINHOLE and "
+            "{}: the camera model '{}' is not known to Vantage, only OPENCV, PINHOLE, RADIAL and "
             "OPENCV_FISHEYE",
             values.frame.where, model);
     }
     return camera;
 }
 
-FormCalibration read_nerfstudio(std::span<const FormFile> files, const FormSettings&) {
+FormCalibration read_nerfstudio(std::span<const FormFile> files, const FormSettings& settings) {
     const FormMap top{files.front().tree, files.front().name()};
     FormCalibration result;
     result.assumed = {"pixel centres at a half, moved to integers",
@@ -76,7 +105,7 @@ FormCalibration read_nerfstudio(std::span<const FormFile> files, const FormSetti
         FormCamera camera;
         camera.name = frame.has("file_path") ? frame.text("file_path")
                                              : fmt::format("{}", result.cameras.size() + 1);
-        camera.model = frame_lens({frame, top});
+        camera.model = frame_lens({frame, top}, settings);
         Pose world_from_camera = frame.pose("transform_matrix");
         world_from_camera.linear() = world_from_camera.linear() * opengl_from_opencv();
         camera.camera_from_frame = world_from_camera.inverse();

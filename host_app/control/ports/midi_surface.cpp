@@ -26,6 +26,12 @@ int encoder_steps(MidiTravel travel, int value) {
     return value < half ? value : half - value;
 }
 
+/// Whether an encoder of this encoding sends the value: it never says that it did not turn.
+bool is_of_encoding(MidiTravel travel, int value) {
+    if (travel == MidiTravel::ends) return value == 0 || value == most_midi_value;
+    return encoder_steps(travel, value) != 0;
+}
+
 /// Position -1..1 relative to the centre, which is rounded up if it is not an integer.
 double stick_position(int value, int most) {
     const int middle = (most + 1) / 2, from = value - middle;
@@ -110,13 +116,20 @@ MidiSurface::Outcome MidiSurface::move(const MidiAxisMap& axis, const MidiContro
         was->second = now;
     } else {
         const int clicks = encoder_steps(axis.travel, value);
-        if (std::abs(clicks) > most_clicks)
+        std::string fault;
+        if (!is_of_encoding(axis.travel, value))
+            fault = fmt::format("the value {} is none of its encoding's", value);
+        else if (std::abs(clicks) > most_clicks)
+            fault = fmt::format(
+                "the value {} would be {} steps at once, where a hand turns {} at "
+                "most",
+                value, clicks, most_clicks);
+        if (!fault.empty())
             return {Outcome::Kind::malformed,
                     {},
-                    fmt::format("{}: the value {} would be {} steps at once, where a hand turns {} "
-                                "at most; its encoding is another (\"twos\", \"offset\" for 63 and "
+                    fmt::format("{}: {}; its encoding is another (\"twos\", \"offset\" for 63 and "
                                 "65, \"sign\", \"127/0\")",
-                                to_text(control), value, clicks, most_clicks)};
+                                to_text(control), fault)};
         steps = clicks;
     }
     steps = std::clamp(steps * factor_of(axis.map), -most_steps, most_steps);

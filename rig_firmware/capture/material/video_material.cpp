@@ -7,6 +7,8 @@
 
 #include "common/av/video_reader.h"
 #include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/base/log_limiter.h"
 #include "common/base/time/time.h"
 #include "rig_firmware/capture/material/stereo_material.h"
 
@@ -149,7 +151,14 @@ class VideoMaterial final : public StereoMaterial {
             position_ = wanted;
             return;
         }
-        std::uint64_t behind = std::min(droppable(), (wanted + length_ - position_) % length_);
+        const std::uint64_t late = (wanted + length_ - position_) % length_;
+        std::uint64_t behind = std::min(droppable(), late);
+        if (late > behind && lateness_.count(1, MonotonicClock::now()))
+            log_warning(
+                "{} is decoded more slowly than pulses come: this frame is {} behind its pulse, so "
+                "that rigs with other videos show other moments; play smaller videos, or lower "
+                "rate_hz",
+                left_.path(), late - behind);
         if (position_ + behind >= length_) {
             behind = position_ + behind - length_;
             begin_again();
@@ -194,6 +203,7 @@ class VideoMaterial final : public StereoMaterial {
     std::chrono::nanoseconds period_;
     std::chrono::nanoseconds decoding_{0};  ///< smoothed time that a pair takes; 0: not known yet
     std::uint64_t decoded_ = 0;
+    LogLimiter lateness_{10s};
     VideoRounds left_;
     std::unique_ptr<VideoRounds> right_;  ///< null: side by side
     cv::Size size_;

@@ -274,6 +274,13 @@ void write_controls(const Seeds& seeds) {
     seeds.write("osc_message", "bundle",
                 "#bundle\0\0\0\0\0\0\0\0\1\0\0\0\x14/vantage/live\0\0\0,\0\0\0"sv);
     seeds.write("rosstalk_line", "lines", "GPI 3\r\nXPT 1:2\r\nMEM 4\r\nGPI -1\r\n");
+    seeds.write("output_url", "srt",
+                "srt://[::1]:9000?mode=listener&passphrase=ten%20letters&latency=120ms");
+    seeds.write("output_url", "film", "a film.mkv?segment=60s&bitrate=6M");
+    seeds.write("output_url", "pipe", "-?format=y4m");
+    seeds.write("time_label", "drop_frame", "02:59:59;29");
+    seeds.write("time_label", "offset", "01:00:10:12+01:00");
+    seeds.write("time_label", "back", "-3.5");
     seeds.write("midi_message", "pad_encoder_bend",
                 "\0\1\x24\x64\0\0\0\1\1\x10\x7f\0\0\0\2\1\0\0\x10\0\0"sv);
     seeds.write("midi_map", "one_of_each",

@@ -100,6 +100,33 @@ TEST_F(StereoCommandTest, calibrates_a_rig_and_says_of_every_picture_why_it_was_
         EXPECT_THAT(html, HasSubstr(part));
 }
 
+TEST_F(StereoCommandTest, gets_the_same_bits_from_pictures_that_hold_both_sides) {
+    const auto both = folder_->path() / "both";
+    std::filesystem::create_directory(both);
+    for (int i = 0; i < 7; ++i) {
+        ColourImage picture;
+        cv::hconcat(read_colour_image(picture_path(0, i)), read_colour_image(picture_path(1, i)),
+                    picture);
+        write_colour_image(both / fmt::format("both{}.png", i), picture);
+    }
+    const ProgramResult two = stereo("left[0-6].png", "right[0-6].png");
+    ASSERT_EQ(two.status, 0) << two.err;
+    const StereoCalibration of_two = load_calibration(output_);
+    const ProgramResult one = run_to_end(
+        VANTAGE_CALIB, {"stereo", "--board", "9x6", "--square-m", "0.1", "--side-by-side",
+                        (both / "both*.png").string(), "--lens", "brown4", "-o", output_});
+    ASSERT_EQ(one.status, 0) << one.err;
+    EXPECT_EQ(load_calibration(output_).id, of_two.id);
+    // A side is half of a picture.
+    const ColourImage odd(180, 481, cv::Vec4b(90, 90, 90, 255));
+    write_colour_image(both / "odd.png", odd);
+    const ProgramResult refused = run_to_end(
+        VANTAGE_CALIB, {"stereo", "--board", "9x6", "--square-m", "0.1", "--side-by-side",
+                        (both / "odd.png").string(), "-o", output_ + ".other"});
+    EXPECT_EQ(refused.status, 1);
+    EXPECT_THAT(refused.err, HasSubstr("481"));
+}
+
 TEST_F(StereoCommandTest, names_swapped_sides_and_leaves_nothing_behind) {
     expect_refusal(stereo("right[0-6].png", "left[0-6].png"), "left and right are swapped");
 }

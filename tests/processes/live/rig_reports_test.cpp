@@ -96,8 +96,13 @@ TEST_F(RigReports, ContainTheFilesWithoutSecrets) {
     EXPECT_THAT(north.at("config").get<std::string>(), HasSubstr("width_px = 64"));
     EXPECT_TRUE(north.at("probe").contains("gpu")) << north.at("probe");
     EXPECT_THAT(north.at("log").dump(), HasSubstr("is attached"));
+    EXPECT_THAT(north.at("addresses").dump(), HasSubstr("127.0.0.1"));
+    EXPECT_TRUE(north.at("clock_steps").is_array());
+    EXPECT_TRUE(north.at("refused_inputs").is_array());
     const auto status = nlohmann::json::parse(text_of("status.json"));
     EXPECT_EQ(status.at("rigs")[0].at("health").at("version"), std::string(version()));
+    EXPECT_THAT(status.at("addresses").dump(), HasSubstr("127.0.0.1"));
+    EXPECT_NE(status.at("keyboard").get<std::string>(), "");
 }
 
 TEST_F(RigReports, ListTheVersionsOfTheRigs) {

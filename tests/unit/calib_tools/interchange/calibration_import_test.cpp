@@ -58,6 +58,9 @@ TEST(CalibrationImport, AsksWhichOfSeveralCamerasAreTheRig) {
     EXPECT_THAT(refusal(row, {.left = "9.png", .right = "1.png"}), HasSubstr("no camera '9.png'"));
     EXPECT_THAT(refusal(row, {.left = "1.png"}), HasSubstr("both --left and --right"));
     EXPECT_TRUE(imported(row_of_cameras({"up", "my_left", "my_right"}, 0.1)).rig);
+    const FormFile paths = row_of_cameras({"./a/L.png", "./a/R1.png", "./a/R12.png"}, 0.1);
+    EXPECT_TRUE(imported(paths, {.left = "L.png", .right = "R1.png"}).rig);
+    EXPECT_THAT(refusal(paths, {.left = "L.png", .right = "R1"}), HasSubstr("several cameras"));
 }
 
 TEST(CalibrationImport, AsksForTheUnitWhereMetresCannotBe) {

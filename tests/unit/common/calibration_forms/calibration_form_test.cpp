@@ -1,5 +1,7 @@
 #include "common/calibration_forms/calibration_form.h"
 
+#include <cmath>
+#include <cstring>
 #include <fstream>
 
 #include <gmock/gmock.h>
@@ -18,8 +20,20 @@ using testing::HasSubstr;
 /// A rig whose cameras are turned against each other and have lenses of their own.
 StereoCalibration some_rig(LensModel lens, std::size_t coefficients) {
     StereoCalibration rig;
-    const std::vector<double> numbers{
-        -0.2812345678901234, 0.0734, 0.00021, 1.7e-05, 0.011, 0.02, -0.003, 0.0004};
+    const std::vector<double> numbers{-0.2812345678901234,
+                                      0.0734,
+                                      0.00021,
+                                      1.7e-05,
+                                      0.011,
+                                      0.02,
+                                      -0.003,
+                                      0.0004,
+                                      0.00012,
+                                      -3e-05,
+                                      0.00017,
+                                      -2e-05,
+                                      0.00123,
+                                      -0.0021};
     for (CameraModel* camera : {&rig.left, &rig.right}) {
         camera->width_px = 752;
         camera->height_px = 480;
@@ -104,6 +118,24 @@ TEST(CalibrationForms, ComeBackFromEveryFormThatIsWritten) {
         }
     }
     EXPECT_GE(written, 5);
+}
+
+TEST(CalibrationForms, ComeBackWithEveryNumberOfCoefficientsOrRefuseThem) {
+    for (const std::size_t coefficients : {0, 4, 5, 8, 12, 14}) {
+        const StereoCalibration rig = some_rig(LensModel::pinhole, coefficients);
+        int written = 0;
+        for (const CalibrationForm& form : calibration_forms()) {
+            if (!form.write) continue;
+            const auto write = [&] { return files_of(form.write(rig)); };
+            if (const std::string refusal = thrown_sentence(write); !refusal.empty()) {
+                EXPECT_THAT(refusal, HasSubstr("cannot be written")) << form.name;
+                continue;
+            }
+            ++written;
+            expect_same_rig(rig, form.read(write(), {}), form.name);
+        }
+        EXPECT_GE(written, 1) << coefficients;
+    }
 }
 
 TEST(CalibrationForms, RefuseLensesThatTheyCannotExpress) {
@@ -253,6 +285,109 @@ TEST(DepthAiForm, FollowsItsChainOfSocketsInCentimetres) {
     EXPECT_EQ(read.cameras[1].model.distortion.size(), 8u);
 }
 
+/// A socket of DepthAI whose camera stands in another one's frame.
+Tree socket_camera(int to, double x, std::optional<int> length_unit = {}) {
+    Tree camera{{"cameraType", 0},
+                {"width", 640},
+                {"height", 480},
+                {"intrinsicMatrix", {{500.0, 0.0, 320.0}, {0.0, 500.0, 240.0}, {0.0, 0.0, 1.0}}},
+                {"distortionCoeff", {0.1, 0.02}},
+                {"extrinsics",
+                 {{"toCameraSocket", to},
+                  {"rotationMatrix", {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}},
+                  {"translation", {{"x", x}, {"y", 0.0}, {"z", 0.0}}}}}};
+    if (length_unit) camera["extrinsics"]["lengthUnit"] = *length_unit;
+    return camera;
+}
+
+FormCalibration read_sockets(const std::vector<std::pair<int, Tree>>& sockets) {
+    Tree data = Tree::array();
+    for (const auto& [number, camera] : sockets) data.push_back(Tree::array({number, camera}));
+    return read_one("oak.json", Tree{{"version", 7}, {"cameraData", data}}.dump());
+}
+
+TEST(DepthAiForm, LeavesOutCamerasWithoutALens) {
+    Tree empty = socket_camera(-1, 0), bare{{"extrinsics", {{"toCameraSocket", -1}}}};
+    empty["width"] = 0;
+    empty["intrinsicMatrix"] = Tree::array();
+    Tree equirectangular = socket_camera(1, 0);
+    equirectangular["cameraType"] = 2;
+    const FormCalibration read = read_sockets({{0, empty},
+                                               {1, socket_camera(0, -7.5)},
+                                               {2, socket_camera(0, 0)},
+                                               {3, equirectangular},
+                                               {4, bare}});
+    ASSERT_EQ(read.cameras.size(), 2u);
+    EXPECT_EQ(read.cameras[0].name, "CAM_B (left)");
+    EXPECT_NEAR(right_in_left(read).norm(), 0.075, 1e-12) << "through the frame of CAM_A";
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'CAM_A (colour)', whose lens is not")));
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'CAM_D', whose projection")));
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'CAM_E', whose lens is not")));
+}
+
+TEST(DepthAiForm, GivesNoPlaceToCamerasOfOtherChains) {
+    const FormCalibration read = read_sockets({{1, socket_camera(2, -7.5)},
+                                               {2, socket_camera(-1, 0)},
+                                               {3, socket_camera(-1, 0)},
+                                               {4, socket_camera(5, 1)},
+                                               {5, socket_camera(4, 1)}});
+    ASSERT_EQ(read.cameras.size(), 5u);
+    EXPECT_TRUE(read.cameras[0].camera_from_frame && read.cameras[1].camera_from_frame);
+    for (std::size_t i : {2, 3, 4}) EXPECT_FALSE(read.cameras[i].camera_from_frame) << i;
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("the place of the camera 'CAM_D'")));
+}
+
+TEST(DepthAiForm, TakesTheUnitThatTheFileStates) {
+    const std::vector<double> metres{1, 0.01, 0.001, 0.0254, 0.3048};
+    for (std::size_t unit = 0; unit < metres.size(); ++unit)
+        EXPECT_NEAR(right_in_left(read_sockets({{1, socket_camera(2, -3, static_cast<int>(unit))},
+                                                {2, socket_camera(-1, 0)}}))
+                        .norm(),
+                    3 * metres[unit], 1e-12);
+    EXPECT_THAT(thrown_sentence([] {
+                    read_sockets({{1, socket_camera(2, -3, 5)}});
+                }),
+                HasSubstr("'lengthUnit' is 5"));
+}
+
+/// A transforms.json with one frame and these entries beside its pose.
+FormCalibration read_transforms(Tree values, const FormSettings& settings = {}) {
+    values["frames"] = Tree::array({{{"file_path", "./train/r_0"},
+                                     {"transform_matrix",
+                                      {{1.0, 0.0, 0.0, 0.0},
+                                       {0.0, 1.0, 0.0, 0.0},
+                                       {0.0, 0.0, 1.0, 4.0},
+                                       {0.0, 0.0, 0.0, 1.0}}}}});
+    return read_one("transforms.json", values.dump(), settings);
+}
+
+TEST(NerfstudioForm, ReadsAnglesOfViewAndOtherWritersKeys) {
+    // NeRF's synthetic scenes have an angle and no size.
+    const Tree angle{{"camera_angle_x", 2 * std::atan(0.5)}};
+    EXPECT_THAT(thrown_sentence([&] { read_transforms(angle); }), HasSubstr("--size"));
+    const CameraModel synthetic =
+        read_transforms(angle, {.size_px = cv::Size(800, 600)}).cameras.at(0).model;
+    EXPECT_NEAR(synthetic.fx_px, 800, 1e-9);
+    EXPECT_NEAR(synthetic.fy_px, 800, 1e-9);
+    EXPECT_EQ(synthetic.cx_px, 399.5);
+    const Tree both{{"w", 640},
+                    {"h", 480},
+                    {"camera_angle_x", 2 * std::atan(0.5)},
+                    {"camera_angle_y", 2 * std::atan(0.25)}};
+    EXPECT_NEAR(read_transforms(both).cameras.at(0).model.fy_px, 960, 1e-9);
+    Tree lens{{"w", 640}, {"h", 480}, {"fl_x", 500.0}, {"k1", 0.1}, {"is_fisheye", true}};
+    EXPECT_EQ(read_transforms(lens).cameras.at(0).model.lens, LensModel::fisheye);
+    lens["is_fisheye"] = false;
+    lens["camera_model"] = "SIMPLE_RADIAL";
+    EXPECT_EQ(read_transforms(lens).cameras.at(0).model.distortion.at(0), 0.1);
+    lens["camera_model"] = "EQUIRECTANGULAR";
+    EXPECT_THAT(thrown_sentence([&] { read_transforms(lens); }), HasSubstr("EQUIRECTANGULAR"));
+    EXPECT_THAT(thrown_sentence([] {
+                    read_transforms({{"w", 640}, {"h", 480}});
+                }),
+                HasSubstr("no focal length"));
+}
+
 TEST(AniposeForm, ReadsTablesWithPoses) {
     const std::string camera =
         "[cam_{0}]\nname = \"{1}\"\nsize = [1280, 720]\nmatrix = [[900.0, 0.0, 640.0], [0.0, "
@@ -267,6 +402,32 @@ TEST(AniposeForm, ReadsTablesWithPoses) {
     EXPECT_EQ(read.cameras[1].name, "B");
     EXPECT_NEAR(right_in_left(read).norm(), 300, 1e-9);
     EXPECT_TRUE(read.unit_is_assumed);
+}
+
+TEST(AniposeForm, ReadsTheFilesOfCaliscope) {
+    const std::string lens =
+        "size = [1280, 720]\nmatrix = [[900.0, 0.0, 640.0], [0.0, 900.0, 360.0], [0.0, 0.0, "
+        "1.0]]\ndistortions = [[0.1, 0.0, 0.0, 0.0, 0.0]]\nerror = 0.19\n";
+    // The tables of version 0.6: vectors; and of versions before: matrices, and "null".
+    const FormCalibration read = read_one(
+        "camera_array.toml",
+        "[cameras.10]\ncam_id = 10\nrotation_count = -1\n" + lens +
+            "rotation = [0.0, 0.1, 0.0]\ntranslation = [-0.3, 0.0, 0.0]\n[cameras.2]\nignore = "
+            "false\n" +
+            lens +
+            "rotation = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]\ntranslation = [0.0, "
+            "0.0, 0.0]\n[cameras.3]\nignore = true\n" +
+            lens + "[cameras.4]\nmatrix = \"null\"\ndistortions = \"null\"\nrotation = \"null\"\n");
+    ASSERT_EQ(read.cameras.size(), 2u);
+    EXPECT_EQ(read.cameras[0].name, "cam_2");
+    EXPECT_EQ(read.cameras[1].name, "cam_10");
+    EXPECT_NEAR(right_in_left(read).norm(), 0.3, 1e-12);
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'cam_10' by -90 degrees")));
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'cam_3', which the file says to")));
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'cam_4', whose lens is not")));
+    const FormCalibration without_place =
+        read_one("config.toml", "[cam_1]\nport = 1\n" + lens + "rotation = \"null\"\n");
+    EXPECT_FALSE(without_place.cameras.at(0).camera_from_frame);
 }
 
 /// The text of an element for a camera of this rig, as Qualisys writes them.
@@ -316,6 +477,29 @@ TEST(QualisysForm, ComesBackInMetresWithItsWorld) {
                 .maxCoeff(),
             1e-9);
     }
+    // The video is a part of the sensor: 736x470 from (8, 4). Some files lack what is 0.
+    std::string part = calibration;
+    for (const auto& [was, becomes] :
+         {std::pair{"fov_video left=\"0\" top=\"0\" right=\"751\" "
+                    "bottom=\"479\"",
+                    "fov_video left=\"8\" top=\"4\" right=\"743\" "
+                    "bottom=\"473\""},
+          std::pair{" skew=\"0\"", ""}, std::pair{" radialDistortion3=\"0\"", ""}})
+        part.replace(part.find(was), std::strlen(was), becomes);
+    const FormCalibration cut = read_one("lab.qca.txt", part);
+    EXPECT_EQ(cut.cameras[0].model.width_px, 736);
+    EXPECT_EQ(cut.cameras[0].model.height_px, 470);
+    EXPECT_NEAR(cut.cameras[0].model.cx_px, rig.left.cx_px - 8, 1e-9);
+    EXPECT_NEAR(cut.cameras[0].model.cy_px, rig.left.cy_px - 4, 1e-9);
+    EXPECT_EQ(cut.cameras[1].model.width_px, rig.right.width_px);
+    EXPECT_THAT(cut.assumed, testing::Contains(HasSubstr("736x470 from (8, 4)")));
+    part.replace(part.find("right=\"743\""), 11, "right=\"843\"");
+    EXPECT_THAT(thrown_sentence([&] { read_one("lab.qca.txt", part); }),
+                HasSubstr("not within its sensor"));
+    std::string uncalibrated = calibration;
+    uncalibrated.replace(uncalibrated.find("active=\"1\""), 10, "calibrated=\"false\"");
+    EXPECT_THAT(read_one("lab.qca.txt", uncalibrated).left_out,
+                testing::Contains(HasSubstr("'21386', which is not calibrated")));
     std::string without = calibration;
     without.replace(without.find("r22="), 4, "q22=");
     EXPECT_THAT(thrown_sentence([&] { read_one("lab.qca.txt", without); }), HasSubstr("r22"));
@@ -366,7 +550,20 @@ TEST(MetashapeForm, ComesBackWithItsScaleAndOrigin) {
     EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'IMG 2', which is not aligned")));
     std::string fisheye = text;
     fisheye.replace(fisheye.find("calibration type=\"frame\""), 24, "calibration type=\"fisheye\"");
-    EXPECT_THAT(thrown_sentence([&] { read_one("cameras.xml", fisheye); }), HasSubstr("'fisheye'"));
+    read = read_one("cameras.xml", fisheye);
+    ASSERT_EQ(read.cameras.size(), 1u) << "a lens of another type leaves out its cameras only";
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'fisheye'")));
+    // The adjusted calibration counts, wherever it stands.
+    std::string initial = text;
+    initial.insert(initial.find("</sensor>"),
+                   "<calibration type=\"frame\" class=\"initial\"><f>1</f></calibration>");
+    EXPECT_EQ(read_one("cameras.xml", initial).cameras.at(0).model.fy_px, rig.left.fy_px);
+    std::string turned = text;
+    turned.insert(turned.find("</camera>"), "<orientation>6</orientation>");
+    turned.replace(turned.find("label=\"IMG 2\""), 13, "master_id=\"0\"");
+    read = read_one("cameras.xml", turned);
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("the orientation 6")));
+    EXPECT_THAT(read.left_out, testing::Contains(HasSubstr("'2', whose place the file states")));
 }
 
 TEST(ColmapForm, TakesHalfPixelsAndNamesWithSpaces) {

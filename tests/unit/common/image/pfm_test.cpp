@@ -55,9 +55,11 @@ TEST_F(PfmTest, KeepsEveryBitThereAndBack) {
     EXPECT_EQ(std::memcmp(back.data, image.data, image.total() * sizeof(float)), 0);
 }
 
-TEST_F(PfmTest, ReadsHeadersWithTheLineEndsOfWindows) {
+TEST_F(PfmTest, ReadsHeadersWithBlanksAndTheLineEndsOfWindows) {
     const std::string values = samples({1.5f, 2.5f}, true);
-    EXPECT_EQ(read_pfm(write("Pf\r\n2 1\r\n-1.0\r\n" + values))(0, 1), 2.5f);
+    for (const std::string header :
+         {"Pf\r\n2 1\r\n-1.0\r\n", "Pf 2 1 -1 ", "Pf\n2  1\n-1.0 \n", "Pf\n2 1 \n-1\t \r\n"})
+        EXPECT_EQ(read_pfm(write(header + values))(0, 1), 2.5f) << header;
     // A sample that begins with LF after a header that ends with CR alone.
     const std::string odd = std::string("\x0a\x00\x80\x3f", 4);
     const cv::Mat1f image = read_pfm(write("Pf\r1 1\r-1.0\r" + odd));

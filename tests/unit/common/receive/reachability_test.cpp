@@ -9,6 +9,7 @@
 
 #include "common/config/socket_address.h"
 #include "tests/support/free_ports.h"
+#include "tests/support/two_addresses.h"
 
 namespace vantage {
 namespace {
@@ -42,6 +43,24 @@ TEST(Reachability, TriesEveryAddressOfAName) {
     }
     for (const SocketAddress& address : addresses)
         EXPECT_THAT(reach(endpoint, limit).reason, HasSubstr(address.host()));
+}
+
+TEST(Reachability, ConnectsToTheAddressThatAnswers) {
+    const int port = two_free_ports().first;
+    zmq::context_t context;
+    zmq::socket_t listener(context, zmq::socket_type::router);
+    listener.bind(fmt::format("tcp://127.0.0.1:{}", port));
+    const std::string endpoint = fmt::format("tcp://{}:{}", name_of_two_addresses, port);
+    EXPECT_EQ(reach(parse_endpoint(endpoint, "endpoint"), limit).address,
+              fmt::format("tcp://127.0.0.1:{}", port))
+        << "[::1] comes first, and nobody listens there";
+}
+
+TEST(Reachability, NamesBothAddressesOfANameThatDoesNotAnswer) {
+    const std::string reason =
+        why(fmt::format("tcp://{}:{}", name_of_two_addresses, two_free_ports().first));
+    EXPECT_THAT(reason, HasSubstr("[::1]"));
+    EXPECT_THAT(reason, HasSubstr("127.0.0.1"));
 }
 
 TEST(Reachability, ReportsAClosedPort) {

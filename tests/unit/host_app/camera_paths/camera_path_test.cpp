@@ -215,6 +215,25 @@ TEST_F(CameraPathTest, OmafCamerasMayStandInOtherAxes) {
               std::string::npos);
 }
 
+TEST_F(CameraPathTest, OmafCamerasComeAtTheRateThatTheFileStates) {
+    const auto read = [](const std::string& keys, const CameraPathSettings& settings = {}) {
+        return omaf_path_of("{" + keys + R"("cameras": [{"Name": "v", "Projection": "Perspective",
+                "Position": [1, 2, 3], "Rotation": [0, 0, 0], "Resolution": [640, 480],
+                "Focal": [500, 500], "Principle_point": [320, 240]}]})",
+                            "a.json", settings);
+    };
+    EXPECT_EQ(read("").rate_hz, 25);
+    EXPECT_EQ(read(R"("Fps": 50, )").rate_hz, 50);
+    EXPECT_EQ(read(R"("Fps": 50, )", {.rate_hz = 30}).rate_hz, 30) << "as the user says";
+    for (const char* fps : {"0", "-1", "1001", "\"many\""})
+        EXPECT_NE(thrown_sentence([&] { read(fmt::format(R"("Fps": {}, )", fps)); }), "") << fps;
+    log_info("before");
+    (void)read(R"("lengthsInMeters": true, )");
+    EXPECT_NE(recent_log_lines().back().find("before"), std::string::npos);
+    (void)read(R"("lengthsInMeters": false, )");
+    EXPECT_NE(recent_log_lines().back().find("another unit than metres"), std::string::npos);
+}
+
 // glTF files that have more than one camera on its way
 // ---------------------------------------------
 

@@ -46,6 +46,13 @@ TEST(OutputUrl, ShowsNoSecret) {
         EXPECT_FALSE(names(sentence, phrase)) << sentence;
     }
     EXPECT_FALSE(names(plan_output("srt://10.0.0.1:9000?passphrase=" + phrase, {}).name, phrase));
+    for (const std::string mistyped : {"Passphrase", "pasphrase", "pass", "passphrase_", "key"}) {
+        const std::string sentence =
+            refusal("srt://10.0.0.1:9000?" + mistyped + "=open%20sesame%201");
+        EXPECT_TRUE(names(sentence, "'" + mistyped + "'")) << sentence;
+        EXPECT_FALSE(names(sentence, "sesame")) << sentence;
+    }
+    EXPECT_TRUE(names(refusal("srt://10.0.0.1:9000?streamid=a%00b"), "%00"));
 }
 
 TEST(OutputUrl, TakesThePassphraseFromAFile) {

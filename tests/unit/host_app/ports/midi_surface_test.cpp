@@ -132,10 +132,15 @@ TEST(MidiSurface, CountsTheClicksOfAnEncoderThatSendsItsEnds) {
 TEST(MidiSurface, RefusesAClickThatWouldLeap) {
     const MidiMap map = midi_map(
         "[axes.\"cc 1\"]\naction = \"orbit\"\nkind = \"encoder\"\n"
-        "[axes.\"cc 2\"]\naction = \"orbit\"\nkind = \"encoder\"\nencoding = \"offset\"\n");
+        "[axes.\"cc 2\"]\naction = \"orbit\"\nkind = \"encoder\"\nencoding = \"offset\"\n"
+        "[axes.\"cc 3\"]\naction = \"orbit\"\nkind = \"encoder\"\nencoding = \"sign\"\n"
+        "[axes.\"cc 4\"]\naction = \"orbit\"\nkind = \"encoder\"\nencoding = \"127/0\"\n");
     MidiSurface surface(map);
-    // Of encoders that send 63 and 65, or 127 and 0.
-    for (const MidiMessage& click : {cc(1, 63), cc(1, 65), cc(2, 127), cc(2, 0)}) {
+    // Of encoders that send 63 and 65, 127 and 0, 1 and 127, or 1 and 65. An encoder that sends 0
+    // in another encoding would turn in one direction only.
+    for (const MidiMessage& click :
+         {cc(1, 63), cc(1, 65), cc(1, 0), cc(2, 127), cc(2, 0), cc(2, 1), cc(2, 64), cc(3, 127),
+          cc(3, 63), cc(3, 0), cc(3, 64), cc(4, 1), cc(4, 63), cc(4, 65)}) {
         const MidiSurface::Outcome outcome = surface.take(click);
         EXPECT_EQ(outcome.kind, Outcome::malformed) << click.value;
         EXPECT_EQ(asked(outcome), "");

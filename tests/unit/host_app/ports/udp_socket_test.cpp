@@ -7,6 +7,7 @@
 #include "host_app/control/ports/tcp_listener.h"
 #include "tests/support/free_ports.h"
 #include "tests/support/thrown_sentence.h"
+#include "tests/support/two_addresses.h"
 
 namespace vantage {
 namespace {
@@ -33,6 +34,18 @@ TEST(UdpSocket, ListensAtEveryAddressOfAName) {
         ASSERT_TRUE(heard) << address.text();
         EXPECT_EQ(heard->bytes.size(), 2u);
         EXPECT_TRUE(socket.send(message, heard->from)) << "an answer goes the same way";
+    }
+}
+
+TEST(UdpSocket, ListensAtBothAddressesOfAName) {
+    const int port = two_free_ports().first;
+    const auto addresses = resolve_all(name_of_two_addresses, port, "the test");
+    ASSERT_EQ(addresses.size(), 2u);
+    UdpSocket socket = UdpSocket::bound({name_of_two_addresses, port, true}, "the test");
+    for (const SocketAddress& address : addresses) {
+        if (address.family() == AF_INET6 && !has_ipv6(two_free_ports().first)) continue;
+        ASSERT_TRUE(UdpSocket::sending(address).send(message, address)) << address.text();
+        EXPECT_TRUE(socket.receive(5s)) << address.text();
     }
 }
 
@@ -89,6 +102,16 @@ TEST(TcpListener, ListensAtEveryAddressOfAName) {
     const int port = two_free_ports().first;
     TcpListener listener({"localhost", port, true}, "the test", 8);
     for (const SocketAddress& address : resolve_all("localhost", port, "the test")) {
+        if (address.family() == AF_INET6 && !has_ipv6(two_free_ports().first)) continue;
+        const UniqueFd caller(::socket(address.family(), SOCK_STREAM | SOCK_CLOEXEC, 0));
+        EXPECT_EQ(::connect(caller.get(), address.get(), address.size), 0) << address.text();
+    }
+}
+
+TEST(TcpListener, ListensAtBothAddressesOfAName) {
+    const int port = two_free_ports().first;
+    TcpListener listener({name_of_two_addresses, port, true}, "the test", 8);
+    for (const SocketAddress& address : resolve_all(name_of_two_addresses, port, "the test")) {
         if (address.family() == AF_INET6 && !has_ipv6(two_free_ports().first)) continue;
         const UniqueFd caller(::socket(address.family(), SOCK_STREAM | SOCK_CLOEXEC, 0));
         EXPECT_EQ(::connect(caller.get(), address.get(), address.size), 0) << address.text();

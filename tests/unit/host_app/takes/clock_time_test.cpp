@@ -79,6 +79,7 @@ TEST_F(ClockTimeTest, TakesTheLaterTimeInTheHourThatOccursTwice) {
     const std::string log = testing::internal::GetCapturedStderr();
     EXPECT_THAT(log, testing::HasSubstr("occurs twice"));
     EXPECT_THAT(log, testing::HasSubstr("2026-10-25T01:30:00Z"));
+    EXPECT_THAT(log, testing::HasSubstr("say 00:30:00Z for the other"));
     const ClockSpan first = clock_span("02:30:00", "02:31:00", set_back - 60);
     EXPECT_EQ(first.from.utc_s, set_back - 1800) << "the later one is still to come";
     EXPECT_EQ(first.to.utc_s, set_back - 1740);

@@ -66,6 +66,37 @@ TEST(OutlineDepth, IsNotDeceivedByAViewFromTheOppositeSide) {
     }
 }
 
+TEST(OutlineDepth, ShowsTheWholeHullToACameraBetweenTheViews) {
+    std::vector<DepthView> views;
+    std::vector<GreyImage> outlines;
+    for (int i = 0; i < 4; ++i) {
+        BallView ball(90.0 * i);
+        ball.view.colour = cv::Vec4b(static_cast<unsigned char>(50 * (i + 1)), 0, 0, 255);
+        views.push_back(ball.view);
+        outlines.push_back(ball.outline);
+    }
+    set_depth_from_outlines(views, outlines);
+    const BallView between(45);
+    const DepthView hull =
+        hull_view(views, outlines, {160, 120, between.view.K, between.view.world_from_camera});
+    int of_ball = 0, known = 0, outside = 0;
+    for (int y = 0; y < 120; ++y)
+        for (int x = 0; x < 160; ++x) {
+            const bool is_ball = between.outline(y, x) > 0, is_hull = hull.depth_m(y, x) > 0;
+            of_ball += is_ball;
+            known += is_ball && is_hull;
+            outside += !is_ball && is_hull;
+            if (!is_hull) continue;
+            EXPECT_LT(hull.depth_m(y, x), 3.05f) << x << ' ' << y;
+            // On its left the hull is that of the view from 0 degrees, on its right from 90.
+            const int blue = hull.colour(y, x)[0];
+            EXPECT_TRUE(x >= 65 || blue <= 75) << x << ' ' << y;
+            EXPECT_TRUE(x <= 95 || blue >= 75) << x << ' ' << y;
+        }
+    EXPECT_GT(known, 0.97 * of_ball);
+    EXPECT_LT(outside, 0.6 * of_ball) << "four outlines make a square prism of a ball";
+}
+
 TEST(OutlineDepth, LeavesViewsWithoutAnOutlineAlone) {
     const BallView a(0), b(90), c(45);
     std::vector<DepthView> views{a.view, b.view, c.view};

@@ -143,7 +143,10 @@ TEST_P(VideoInStep, ShowsTheFrameOfThePulseWheneverItIsStarted) {
     fast.rate_hz = 1e9;
     const auto late = open_material(fast);
     EXPECT_EQ(number(*late, 12'001), 1);
+    testing::internal::CaptureStderr();
     EXPECT_EQ(number(*late, 12'004), 2);
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_NE(log.find("this frame is 2 behind its pulse"), std::string::npos) << log;
 }
 
 INSTANTIATE_TEST_SUITE_P(Codecs, VideoInStep, testing::Values("MJPG", "MP4V"));
