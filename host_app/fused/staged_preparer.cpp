@@ -26,8 +26,6 @@ constexpr int baked_from = 5;
 /// Share of a rig's picture whose background has changed, from which on its model is patched at
 /// once and what was baked before is not drawn any more.
 constexpr double changed_share_to_patch = 0.01;
-/// Time for which the cheapest levels keep a known background's shape; colours are always new.
-constexpr double shape_kept_s = 1;
 /// Time between two status updates of the backgrounds and the mattes.
 constexpr double look_period_s = 1;
 
@@ -361,11 +359,6 @@ std::shared_ptr<const RigSurface> StagedPreparer::performers_of(RigHistory& rig,
     return surface;
 }
 
-bool StagedPreparer::has_shape(const RigHistory& rig, const PrepareLevel& level) const {
-    return !level.is_refined && rig.shape_made_s() && now_s_ - *rig.shape_made_s() < shape_kept_s &&
-           (rig.surface()->has_fine_grid() || !level.has_fine_grid);
-}
-
 void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
                                 const PrepareLevel& level) {
     Program& show = show_.use();
@@ -384,9 +377,6 @@ void StagedPreparer::make_shape(RigSurface& surface, RigHistory& rig, const Text
         triangles_.build_rims(surface);
     }
     surface.set_has_fine_grid(level.has_fine_grid);
-    // A background that is not known yet grows with every instant.
-    const bool is_kept = !level.is_refined && rig.model()->rank == 0;
-    rig.set_shape_made_s(is_kept ? std::optional(now_s_) : std::nullopt);
 }
 
 std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
@@ -395,8 +385,6 @@ std::shared_ptr<const RigSurface> StagedPreparer::set_of(RigHistory& rig,
     const std::shared_ptr<RigSurface> surface = surfaces_.take(shapes_);
     if (is_baked_) {
         surface->begin_like(*baker_.surface_of(rig), rig.samples());
-    } else if (has_shape(rig, level)) {
-        surface->begin_like(*rig.surface(), rig.samples());
     } else {
         surface->begin(rig.camera(), rig.colour().size(), rig.depth().size(), rig.samples());
         make_shape(*surface, rig, performers_m, level);

@@ -107,8 +107,6 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     std::shared_ptr<const RigSurface> performers_of(RigHistory& rig, const PrepareLevel& level);
     std::shared_ptr<const RigSurface> set_of(RigHistory& rig, const Texture& performers_m,
                                              const PrepareLevel& level);
-    /// Whether the background's shape of the last instant is reused at this level.
-    bool has_shape(const RigHistory& rig, const PrepareLevel& level) const;
     void make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
                     const PrepareLevel& level);
     void publish(RigHistory& rig, const PrepareLevel& level);

@@ -23,7 +23,6 @@ void RigHistory::forget() {
 void RigHistory::hide() {
     surface_.reset();
     performers_.reset();
-    shape_made_s_.reset();
     prepared_rank_.reset();
 }
 

@@ -90,15 +90,7 @@ class RigHistory {
     };
     /// Nothing before the first refinement.
     const std::optional<Model>& model() const { return model_; }
-    void set_background_model(const Model& model) {
-        model_ = model;
-        shape_made_s_.reset();
-    }
-
-    /// When depth and triangles of the published surface() were made from this model, on the
-    /// preparer's clock; nothing if they are made for each instant.
-    std::optional<double> shape_made_s() const { return shape_made_s_; }
-    void set_shape_made_s(std::optional<double> made_s) { shape_made_s_ = made_s; }
+    void set_background_model(const Model& model) { model_ = model; }
 
     /// The newest right images, the oldest first.
     const std::deque<SharedBytes>& right_jpegs() const { return right_jpegs_; }
@@ -160,7 +152,6 @@ class RigHistory {
     BackgroundState background_;
     int learnt_instants_ = 0;
     std::optional<Model> model_;
-    std::optional<double> shape_made_s_;
     std::deque<SharedBytes> right_jpegs_;
     std::optional<Match> match_;
     DrawnTexture matched_depth_{TextureFormat::r32f};
