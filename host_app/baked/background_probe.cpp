@@ -17,8 +17,6 @@ constexpr int largest_speckle_px = 24, speckle_step = 16;
 
 /// Pixels that a surface is continued by into a hole, from each side.
 constexpr int widest_filled_px = 12;
-/// Alpha of places that no rig has seen.
-constexpr std::uint8_t never_seen_alpha = 64;
 
 DepthImage inverse_of(const DepthImage& depth_m) {
     DepthImage inverse(depth_m.size(), 0.0f);

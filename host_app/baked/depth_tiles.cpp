@@ -221,7 +221,7 @@ ColourImage backdrop_colours(const ColourImage& colour, const DepthImage& depth_
     continue_into_holes(cells, known);
     ColourImage colours;
     cells.convertTo(colours, CV_8UC4);
-    for (cv::Vec4b& pixel : colours) pixel[3] = 255;
+    for (cv::Vec4b& pixel : colours) pixel[3] = never_seen_alpha;
     return colours;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -33,8 +34,11 @@ std::vector<DepthTile> planar_tiles(const DepthImage& depth_m, float tolerance);
 /// none. Empty if the map has no depth at all.
 std::vector<DepthTile> backdrop_tiles(const DepthImage& depth_m, int cell_px);
 
+/// Alpha of colours for places that no rig has seen; those of seen places have more than 127.
+inline constexpr std::uint8_t never_seen_alpha = 64;
+
 /// The colours of backdrop_tiles(): for each cell the mean of its farther pixels (rgba8, alpha
-/// 255), continued where a cell has none.
+/// never_seen_alpha), continued where a cell has none.
 ColourImage backdrop_colours(const ColourImage& colour, const DepthImage& depth_m, int cell_px);
 
 }  // namespace vantage

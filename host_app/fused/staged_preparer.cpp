@@ -455,7 +455,7 @@ bool StagedPreparer::improve_a_step(const VirtualView& target,
                                     BackgroundStereoTask::Manner manner) {
     if (match_a_step(manner)) return true;
     if (refinement_pass_ && !is_under_way(*refinement_pass_)) refinement_pass_.reset();
-    // What a picture would be drawn from at once comes before better models.
+    // Probes come before better models while pictures of this view cannot use a baked background.
     const bool is_baking_urgent = !baker_.baked_for(target);
     if ((!refinement_pass_ || is_baking_urgent) && bake_a_step(target, manner)) return true;
     if (!refinement_pass_) begin_refining(target);

@@ -24,6 +24,6 @@ void main() {
     }
     vec4 c = textureLod(colour, (place_px + 0.5) / (colour_cell_px * vec2(textureSize(colour, 0))), 0.0);
     float z = 1.0 / (gl_FragCoord.w * plane);
-    shown = vec4(c.rgb, is_guessed ? 64.0 / 255.0 : c.a);
-    depth_m = !is_guessed && c.a >= 0.5 ? z : -z;
+    shown = c;
+    depth_m = c.a >= 0.5 ? z : -z;
 }

@@ -15,8 +15,10 @@ const float noise = 0.03;  // of the camera's colours (0..1)
 void main() {
     vec2 texel = 1.0 / vec2(textureSize(picture, 0)), uv = gl_FragCoord.xy * texel;
     float share = textureLod(matte, uv, 0.0).r;
-    performers = vec4(sharpened(picture, ivec2(gl_FragCoord.xy)), 1.0);
-    if (share == 1.0) return;
+    if (share == 1.0) {
+        performers = vec4(sharpened(picture, ivec2(gl_FragCoord.xy)), 1.0);
+        return;
+    }
     vec3 own = textureLod(picture, uv, 0.0).rgb;
     performers = vec4(share * own, share);
     if (share == 0.0) return;

@@ -149,12 +149,18 @@ Background set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrar
     return preparer->background_access()->learnt();
 }
 
-std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
-    VirtualStage stage(library, set), truth_stage(library, set);
+std::vector<std::unique_ptr<MatchingRig>> rigs_of(const ShaderLibrary& library,
+                                                  const SteppedTruth& wanted) {
     std::vector<std::unique_ptr<MatchingRig>> rigs;
     for (const double place : {-1.5, -0.5, 0.5, 1.5})
         rigs.push_back(std::make_unique<MatchingRig>(library, place * wanted.apart_deg,
                                                      rigs.size() + 1, wanted.rigs));
+    return rigs;
+}
+
+std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
+    VirtualStage stage(library, set), truth_stage(library, set);
+    const std::vector<std::unique_ptr<MatchingRig>> rigs = rigs_of(library, wanted);
     std::vector<TruthRegions> rig_regions;
     if (!wanted.exact_in.empty())
         for (const auto& rig : rigs) rig_regions.emplace_back(truth_stage, rig->camera());
@@ -289,10 +295,7 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
 std::string flown_rows(const ShaderLibrary& library, const SteppedTruth& wanted,
                        std::uint64_t scene) {
     VirtualStage stage(library, scene), truth_stage(library, scene);
-    std::vector<std::unique_ptr<MatchingRig>> rigs;
-    for (const double place : {-1.5, -0.5, 0.5, 1.5})
-        rigs.push_back(std::make_unique<MatchingRig>(library, place * wanted.apart_deg,
-                                                     rigs.size() + 1, wanted.rigs));
+    const std::vector<std::unique_ptr<MatchingRig>> rigs = rigs_of(library, wanted);
     const Move move = Move::load(wanted.flight);
     const cv::Size size = wanted.flown_size;
     std::string text;
@@ -302,8 +305,7 @@ std::string flown_rows(const ShaderLibrary& library, const SteppedTruth& wanted,
         ViewPainter painter(entry, {.width_px = size.width, .height_px = size.height}, library);
         Fidelity fidelity;
         const double rate_hz = wanted.rate_hz;
-        const auto instants =
-            std::llround((wanted.settling_s + wanted.measured_s) * wanted.rate_hz);
+        const auto instants = std::llround((wanted.settling_s + wanted.measured_s) * rate_hz);
         for (std::int64_t k = 0; k < instants; ++k) {
             const double time_s = static_cast<double>(k) / rate_hz;
             const nanoseconds time = nanoseconds_of(wanted.start_s + time_s);

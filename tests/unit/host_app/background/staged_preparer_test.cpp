@@ -322,7 +322,7 @@ class RefinedBackgroundTest : public StagedPreparerTest {
         target_ = {staged_width_px, staged_height_px, views[1].K, views[1].world_from_camera};
         (void)preparer_.prepare(target_, prepare_levels().back());
     }
-    /// What is left to do then are refinements.
+    /// Learns and bakes the background. Afterwards the preparer has only refinements left to do.
     void learn_and_bake() {
         for (int i = 0; i < 5; ++i) take_instant(rigs());
         preparer_.improve(target_);
