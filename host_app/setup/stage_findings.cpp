@@ -21,7 +21,7 @@ void add_calibration(const RigStatus& rig, const std::string& stage_file,
                      std::vector<Finding>& findings) {
     if (!rig.health.calibration_date.empty()) return;
     findings.push_back(
-        {rig.rig, false, "it has no calibration from a file, as only a virtual rig may",
+        {rig.rig, false, "it has no calibration file; only a virtual rig films without one",
          fmt::format("vantage-calib stereo --live {} --rig {}=FOLDER --board-file board.toml -o "
                      "FOLDER/calibration.yaml (docs/build/calibration.md)",
                      stage_file, rig.rig)});

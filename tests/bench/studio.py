@@ -333,7 +333,8 @@ def main():
     text += (
         "\n## Limits\n\n"
         "- Loopback has no network delay; a studio's network adds its own.\n"
-        "- Real devices were not connected: the measuring programs speak their protocols.\n"
+        "- Real devices were not connected: the measuring programs speak their protocols.\n\n"
+        "[Files of other programs](interop.md) lists what was read from them.\n"
     )
     print(text)
     if "--print" not in sys.argv and not arguments[1:]:

@@ -65,12 +65,13 @@ class Table:
                  "others.", "",
                  "```text", "tests/interop/interop.py --bin build/release/bin -o docs/results/interop.md", "```", "",
                  "The command writes this page. It makes every file with the program named, reads it with Vantage, and compares the result with",
-                 "the original. The verdict *right* means the same result. *Named* means a difference or a refusal that Vantage names. *Wrong*",
-                 "means a difference that Vantage does not notice.", "",
-                 "| writer | format | reader | verdict | message of Vantage |", "| --- | --- | --- | --- | --- |"]
+                 "the original. The verdict *right* means the same result, as far as the last column says. *Named* means a difference or a refusal that Vantage",
+                 "names. *Wrong* means a difference that Vantage does not notice. A program that is missing is SKIPPED.", "",
+                 "| writer | format | reader | verdict | result, or message of Vantage |", "| --- | --- | --- | --- | --- |"]
         lines += ["| " + " | ".join(row) + " |" for row in self.rows]
         counts = {v: sum(row[3] == v for row in self.rows) for v in ("right", "named", "wrong", "SKIPPED")}
-        lines += ["", ", ".join(f"{count} {name}" for name, count in counts.items()) + "."]
+        lines += ["", ", ".join(f"{count} {name}" for name, count in counts.items()) + ".", "",
+                  "[Calibration](../build/calibration.md#6-calibrations-of-other-programs) says how other programs' calibrations are read."]
         return "\n".join(lines) + "\n"
 
 

@@ -144,6 +144,7 @@ class Verdict {
         row("ratio of means", [&](int i) { return sums_[i] / best_sum_; });
         row("mean of ratios", [&](int i) { return ratio_sums_[i] / scenes_; });
     }
+    int scenes() const { return scenes_; }
 
   private:
     double sums_[std::size(presets)] = {}, ratio_sums_[std::size(presets)] = {}, best_sum_ = 0;
@@ -191,7 +192,7 @@ void print_quality(const ShaderLibrary& library, const std::string& matcher,
         held_out.add(q);
         (scene.use == SceneUse::held_out ? photographs : generated).add(q);
     }
-    held_out.print("held-out scenes");
+    if (photographs.scenes() > 0 && generated.scenes() > 0) held_out.print("held-out scenes");
     photographs.print("held-out photographs");
     generated.print("held-out generated scenes");
     tuning.print("scenes of tuning");

@@ -211,8 +211,8 @@ int run(int argc, char** argv) {
     text << fmt::format("Measured on {}.\n\n", GlInfo::query().renderer)
          << "A cell has PSNR and SSIM over all pixels, and the coverage. On the stage it also has "
             "the mean error, of 255, of covered pixels within 2 px of depth edges. The stage has "
-            "320x240, four rigs so far apart, and exact depth. The view is midway between the "
-            "middle two. There are "
+            "four rigs of 320x240 with exact depth, as far apart as the column says. The view is "
+            "midway between the middle two. There are "
          << instants_before
          << " instants before it, half a second apart. The column ms is for an instant and a "
             "picture of the stage at 20 degrees.\n\n| system |";
