@@ -40,9 +40,13 @@ void BackgroundBaker::forget() {
     changed_s_ = -1;
 }
 
+void BackgroundBaker::bake_anew() {
+    for (Probe& probe : probes_) probe.rest_s = 0;
+}
+
 void BackgroundBaker::note_change(double now_s) {
     changed_s_ = now_s;
-    for (Probe& probe : probes_) probe.rest_s = 0;
+    bake_anew();
 }
 
 std::shared_ptr<const RigSurface> BackgroundBaker::surface_of(const RigHistory& rig) {

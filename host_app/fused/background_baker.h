@@ -33,6 +33,9 @@ class BackgroundBaker {
               bool waits);
     /// Whether a probe is being drawn for a place that nothing is baked for yet.
     bool is_first_under_way() const { return drawing_ && !is_current(probes_[drawing_->probe]); }
+    /// Bakes for newer models as soon as there are some, and draws what was baked before until
+    /// then.
+    void bake_anew();
     /// The background has changed: what was baked before of refined models is not drawn any more.
     void note_change(double now_s);
     /// Returns what `target` is drawn from; null while too many of the probes around it are

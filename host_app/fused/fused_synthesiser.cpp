@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "host_app/fused/fused_colour.h"
 #include "host_app/fused/fused_depth.h"
 #include "host_app/fused/impulse_filter.h"
+#include "host_app/fused/own_picture.h"
 #include "host_app/fused/staged_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
 #include "host_app/synthesis/layer_ranking.h"
@@ -28,7 +30,8 @@ class FusedRenderer final : public ViewRenderer {
           impulses_(library),
           performers_(library),
           baked_(library),
-          depth_(library) {}
+          depth_(library),
+          own_(library) {}
 
     const Texture& render(const Instant& instant, const VirtualView& view,
                           const RenderLevel& level) override {
@@ -85,7 +88,7 @@ class FusedRenderer final : public ViewRenderer {
         origins_.reset();
         if (notes_origins) origins_ = origins_of(picture_, layers);
         depth_m_ = &picture_.depth_m();
-        return impulses_.filter(picture_.colour(), *depth_m_);
+        return finished(picture_.colour(), rigs, view);
     }
 
     /// Draws the rigs' foregrounds over a picture of the background and removes impulses.
@@ -94,14 +97,30 @@ class FusedRenderer final : public ViewRenderer {
                                    const RenderLevel& level) {
         if (!rigs.front()->boundary) {
             depth_m_ = &background_m;
-            return impulses_.filter(background, background_m);
+            return finished(background, rigs, view);
         }
         const DepthPicture& picture =
             performers_.show(background, background_m, origins_ ? origins_->shares : nullptr,
                              layers_of(rigs, &InstantRig::boundary), view, level.is_plain);
         if (origins_) origins_->shares = picture.shares();
         depth_m_ = &picture.depth_m();
-        return impulses_.filter(picture.colour(), *depth_m_);
+        return finished(picture.colour(), rigs, view);
+    }
+
+    /// Removes impulses from a picture and lays that of a near rig over it.
+    const Texture& finished(const Texture& picture, std::span<const InstantRig* const> rigs,
+                            const VirtualView& view) {
+        const Texture& filtered = impulses_.filter(picture, *depth_m_);
+        const auto near = std::find_if(rigs.begin(), rigs.end(), [&](const InstantRig* rig) {
+            return rig->picture &&
+                   nearness(rig->camera(), rig->surface->median_depth_m(), view) > 0;
+        });
+        if (near == rigs.end()) return filtered;
+        if (origins_ && origins_->shares)
+            origins_->shares = &own_.lay_over_shares(*origins_->shares,
+                                                     static_cast<std::size_t>(near - rigs.begin()),
+                                                     *depth_m_, **near, view);
+        return own_.lay_over(filtered, *depth_m_, **near, view);
     }
 
     FusedColour colour_;
@@ -110,6 +129,7 @@ class FusedRenderer final : public ViewRenderer {
     ForegroundLayers performers_;
     BakedPainter baked_;
     FusedDepth depth_;
+    OwnPicture own_;
     bool is_baked_warm_ = false;
     DepthPicture picture_;  ///< of the background, where it is baked
     std::optional<PixelOrigins> origins_;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
+#include "host_app/fused/own_picture.h"
 #include "host_app/views/depth_view.h"
 #include "host_app/views/view_ranking.h"
 
@@ -23,9 +24,10 @@ constexpr double learnt_before_match_s = 2.5, first_match_rest_s = 5, longest_ma
 /// Instants that a background must be learnt from before it is baked: earlier it may still hold
 /// performers.
 constexpr int baked_from = 5;
-/// Share of a rig's picture whose background has changed, from which on its model is patched at
-/// once and what was baked before is not drawn any more.
-constexpr double changed_share_to_patch = 0.01;
+/// Share of a rig's picture whose background has changed, from which on its model is made anew, and
+/// the share from which on it is patched at once and what was baked before is not drawn any more. A
+/// place that a performer leaves for the first time is a small change.
+constexpr double changed_share_to_renew = 0.001, changed_share_to_patch = 0.01;
 /// Time between two status updates of the backgrounds and the mattes.
 constexpr double look_period_s = 1;
 
@@ -47,6 +49,7 @@ StagedPreparer::StagedPreparer(const ShaderLibrary& library)
       colour_performers_(library, "foreground_colour.frag"),
       copy_(library, "copy.frag"),
       patch_(library, "background_patch.frag"),
+      picture_now_(library, "picture_now.frag"),
       baker_(library) {
     match_anew(learnt_before_match_s);
 }
@@ -152,6 +155,10 @@ void StagedPreparer::look_at_sets() {
         const BackgroundModel::Look look =
             is_learnt ? sets_.look_at(*rig) : BackgroundModel::Look();
         const bool has_changed = look.changed_share > changed_share_to_patch;
+        if (look.changed_share > changed_share_to_renew) {
+            baker_.bake_anew();
+            make_model_due(*rig);
+        }
         if (has_changed) {
             baker_.note_change(now_s_);
             if (level_.is_refined)
@@ -413,6 +420,20 @@ void StagedPreparer::publish(RigHistory& rig, const PrepareLevel& level) {
     rig.publish(set_of(rig, performers->depth(), level), performers, level.rank);
 }
 
+std::shared_ptr<const DrawnTexture> StagedPreparer::picture_now(RigHistory& rig) {
+    if (rig.picture_now()) return rig.picture_now();
+    const std::shared_ptr<DrawnTexture> picture =
+        pictures_.take(TextureFormat::rgba8, Filter::linear, true);
+    picture->resize(rig.fresh_colour().size());
+    Program& program = picture_now_.use();
+    program.input("picture", rig.fresh_colour());
+    program.input("background_colour", rig.colour());
+    picture_now_.overwrite(picture->target());
+    picture->generate_mipmaps();
+    rig.set_picture_now(picture);
+    return picture;
+}
+
 std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target,
                                                        const PrepareLevel& level) {
     auto instant = std::make_shared<Instant>();
@@ -426,6 +447,8 @@ std::shared_ptr<const Instant> StagedPreparer::prepare(const VirtualView& target
     for (RigHistory* rig : rigs) {
         if (!rig->prepared_rank() || *rig->prepared_rank() > level.rank) publish(*rig, level);
         instant->rigs.push_back({rig->surface(), rig->performers(), rig->presence()});
+        if (nearness(rig->camera(), rig->median_depth_m(), target) > 0)
+            instant->rigs.back().picture = picture_now(*rig);
     }
     return instant;
 }

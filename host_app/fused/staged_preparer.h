@@ -110,8 +110,11 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     void make_shape(RigSurface& surface, RigHistory& rig, const Texture& performers_m,
                     const PrepareLevel& level);
     void publish(RigHistory& rig, const PrepareLevel& level);
+    /// Returns the rig's picture at the newest instant, denoised where it shows the background.
+    std::shared_ptr<const DrawnTexture> picture_now(RigHistory& rig);
 
     RecyclePool<RigSurface> surfaces_;
+    RecyclePool<DrawnTexture> pictures_;
     std::shared_ptr<RigSurface::Shapes> shapes_ = std::make_shared<RigSurface::Shapes>();
     RigRoster rigs_;
     std::vector<RigHistory*> uploaded_;    ///< the newest instant's rigs
@@ -131,7 +134,7 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     TriangleBuilder triangles_;
     FullscreenPass show_, now_, show_matched_;
     TilePass colour_performers_;
-    FullscreenPass copy_, patch_;
+    FullscreenPass copy_, patch_, picture_now_;
     DrawnTexture patched_{TextureFormat::r32f};
     BackgroundBaker baker_;
     bool is_baked_ = false;  ///< the present instant is drawn from what baker_ has

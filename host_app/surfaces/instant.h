@@ -19,6 +19,9 @@ struct InstantRig {
     std::shared_ptr<const RigSurface> boundary = nullptr;
     /// Weight of the rig, 0..1: it fades in when it appears and out when it is gone.
     float presence = 1;
+    /// Its own picture at this instant, rgba8, trilinear; null unless the instant was prepared for
+    /// a view near the rig (see OwnPicture).
+    std::shared_ptr<const DrawnTexture> picture = nullptr;
 
     const DepthView& camera() const { return surface->camera(); }
     std::span<const Eigen::Vector3d> sample_points_m() const { return surface->sample_points_m(); }

@@ -35,6 +35,7 @@ void RigHistory::upload(const DepthView& view, double dt_s) {
     if (!is_same_camera) forget();
     if (!prepared_rank_) hide();
     prepared_rank_.reset();
+    picture_now_.reset();
     is_colour_denoised_ = is_background_learnt_ = false;
     if (view.right_jpeg && (right_jpegs_.empty() || right_jpegs_.back() != view.right_jpeg))
         right_jpegs_.push_back(view.right_jpeg);

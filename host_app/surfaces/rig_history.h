@@ -125,6 +125,11 @@ class RigHistory {
     const std::shared_ptr<const RigSurface>& surface() const { return surface_; }
     const std::shared_ptr<const RigSurface>& performers() const { return performers_; }
     std::optional<int> prepared_rank() const { return prepared_rank_; }
+    /// The picture of the last upload, denoised; null if it was not made.
+    const std::shared_ptr<const DrawnTexture>& picture_now() const { return picture_now_; }
+    void set_picture_now(std::shared_ptr<const DrawnTexture> picture) {
+        picture_now_ = std::move(picture);
+    }
     void publish(std::shared_ptr<const RigSurface> surface,
                  std::shared_ptr<const RigSurface> performers, int rank) {
         surface_ = std::move(surface);
@@ -160,6 +165,7 @@ class RigHistory {
     DrawnTexture foreground_depth_{TextureFormat::r32f};
     bool is_colour_denoised_ = false, is_background_learnt_ = false;
     std::shared_ptr<const RigSurface> surface_, performers_;
+    std::shared_ptr<const DrawnTexture> picture_now_;
     std::optional<int> prepared_rank_;
     float presence_ = 1;
     SurfaceSamples samples_;

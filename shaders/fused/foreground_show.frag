@@ -35,6 +35,7 @@ const float hidden = 0.97;     // a background nearer than this share of the for
 const float about_px = 1.5;    // error of depth: silhouettes are widened by it for other rigs
 const float least_say = 1e-3;  // weight of a rig that does not see the point, used where no rig does
 const float whole = 0.9;       // share from which on surfaces behind are not examined
+const float seen_share = 0.5;  // share of a rig's pixel from which on the rig sees its foreground there
 const float one_body = 0.04;   // relative depth within which two rigs show the same place
 
 struct Seen {
@@ -81,6 +82,15 @@ void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout S
     seen.sum += w * c.rgb;
     seen.weight += w * c.a;
     seen.shares[i] += w * c.a;
+}
+
+// Whether a rig sees its foreground past a point of the background, which then cannot be there.
+bool sees_past(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z) {
+    vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
+    vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
+    vec2 margin = min(uv, 1.0 - uv);
+    if (q.z <= 0.0 || min(margin.x, margin.y) < 0.0 || textureLod(pictures, uv, 0.0).a < seen_share) return false;
+    return hidden * abs(textureLod(map, uv, 0.0).r) > q.z;
 }
 
 void main() {
@@ -133,7 +143,12 @@ void main() {
     }
         FOR_LAYERS(AVERAGE)
         float there = weights > 0.0 ? sum / weights : nearest;
-        if (set_z > 0.0 && set_z < hidden * there) break;
+        if (set_z > 0.0 && set_z < hidden * there) {
+            bool is_refuted = false;
+#define SEE_PAST(i) is_refuted = is_refuted || sees_past(i, colour[i], source_depth[i], pixel, set_z);
+            FOR_LAYERS(SEE_PAST)
+            if (!is_refuted) break;
+        }
         Seen seen = Seen(vec3(0.0), 0.0, vec4(0.0), 0.0, 0.0, 1.0, 0.0, 0.0);
 #define SEE(i) look(i, colour[i], source_depth[i], pixel, there, seen);
         FOR_LAYERS(SEE)

@@ -23,6 +23,9 @@ uniform float softness;         // relative depth within which two surfaces are 
 layout(location = 0) out vec4 fused;
 layout(location = 1) out float fused_z;
 
+const float past = 1.03;   // share of a surface's depth from which on a rig sees past it
+const int past_steps = 3;  // from such a surface to the one that the rig sees
+
 void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec3 sum, inout float weight, inout vec4 shares,
          inout float confidence) {
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
@@ -49,6 +52,28 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec
     confidence = max(confidence, seen.a);
 }
 
+#if BAKED
+// Where a rig sees past a baked surface that no rig has any more, shows what that rig sees there; false: it does not.
+bool show_past(int i, sampler2D picture, sampler2D map, vec2 pixel, float z) {
+    vec2 uv;
+    for (int k = 0; k < past_steps; ++k) {
+        vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
+        uv = (q.xy / q.z + 0.5) / colour_size[i];
+        vec2 margin = min(uv, 1.0 - uv);
+        if (q.z <= 0.0 || min(margin.x, margin.y) < 0.0) return false;
+        float there = abs(textureLod(map, uv, 0.0).r);
+        if (k == 0 && there < past * q.z) return false;
+        z *= there / q.z;
+    }
+    fused = vec4(textureLod(picture, uv, 0.0).rgb, 1.0);
+    fused_z = z;
+    vec4 shares = vec4(0.0);
+    shares[i] = 1.0;
+    tell_origins(shares);
+    return true;
+}
+#endif
+
 void show_background(ivec2 at) {
     float own = texelFetch(fused_depth, at, 0).r, z = abs(own);
     fused = vec4(0.0);
@@ -64,7 +89,16 @@ void show_background(ivec2 at) {
     float weight = 0.0, confidence = 0.0;
 #define ADD(i) add(i, colour[i], source_depth[i], vec2(at), z, sum, weight, shares, confidence);
     FOR_LAYERS(ADD)
+#if BAKED
+    if (weight == 0.0) {
+        bool is_found = false;
+#define SHOW_PAST(i) is_found = is_found || show_past(i, colour[i], source_depth[i], vec2(at), z);
+        FOR_LAYERS(SHOW_PAST)
+        return;
+    }
+#else
     if (weight == 0.0) return;
+#endif
     fused = vec4(sum / weight, alpha_of(own > 0.0, confidence));
     fused_z = z;
     tell_origins(shares / weight);

@@ -37,6 +37,11 @@ int main(int argc, char** argv) {
     steps->add_option("--settling", stepped.settling_s, "Seconds before the measured ones");
     steps->add_option("--seconds", stepped.measured_s, "Measured");
     steps->add_option("--start", stepped.start_s, "In the stage's loop of 24 s");
+    steps
+        ->add_option("--cameras", stepped.cameras,
+                     "Where cameras stand: distances between two rigs from the middle of the four; "
+                     "-1.5,-0.5,0.5,1.5: where the rigs stand")
+        ->delimiter(',');
     steps->add_option("--prepare-level", stepped.prepare_level)
         ->check(CLI::Range(0, prepare_levels().back().rank));
     steps->add_option("--render-level", stepped.render_level)

@@ -9,6 +9,7 @@
 #include <span>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -164,9 +165,8 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
     std::vector<TruthRegions> rig_regions;
     if (!wanted.exact_in.empty())
         for (const auto& rig : rigs) rig_regions.emplace_back(truth_stage, rig->camera());
-    // Between the middle rigs, between the last two, and beside the last.
     std::vector<StillCamera> cameras;
-    for (const double place : {0.0, 1.0, 1.6})
+    for (const double place : wanted.cameras)
         cameras.emplace_back(truth_stage, place * wanted.apart_deg, wanted.rigs.size);
 
     const PictureFormat format{.width_px = wanted.rigs.size.width,
@@ -360,8 +360,8 @@ std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& want
     if (!wanted.flight.empty()) return flown_table(library, wanted);
     std::string text = fmt::format(
         "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, {} depth{}. {:g} "
-        "instants a second, prepared at level {} and rendered at level {}; three cameras between "
-        "and beside the rigs, {:g} s after the start and {:g} s long.{}\n\n"
+        "instants a second, prepared at level {} and rendered at level {}; cameras {} distances "
+        "between rigs from the middle, {:g} s after the start and {:g} s long.{}\n\n"
         "| synthesiser | scene | PSNR dB | of the background | of performers | SSIM | outlier "
         "pixels | performers' "
         "edges: mean error | flicker: background | performers | IV-PSNR dB / IV-SSIM | of "
@@ -369,8 +369,8 @@ std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& want
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
         wanted.with_exact_depth ? "exact" : "own", wanted.knows_set ? ", a set learnt before" : "",
-        wanted.rate_hz, wanted.prepare_level, wanted.render_level, wanted.settling_s,
-        wanted.measured_s,
+        wanted.rate_hz, wanted.prepare_level, wanted.render_level, fmt::join(wanted.cameras, ", "),
+        wanted.settling_s, wanted.measured_s,
         wanted.with_times ? " Times are of the processor, milliseconds an instant or picture." : "",
         wanted.with_times ? " take | prepare | render |" : "",
         wanted.with_times ? " --- | --- | --- |" : "");

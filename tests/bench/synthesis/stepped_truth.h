@@ -16,6 +16,9 @@ struct SteppedTruth {
     MatchingRig::Settings rigs{.disparities = 32, .preset = MatchPreset::balanced};
     double apart_deg = 20, rate_hz = 5, settling_s = 3, measured_s = 1;
     double start_s = 2;  ///< in the stage's loop
+    /// Where the cameras stand, in distances between two rigs from the middle of the four: between
+    /// the middle rigs, between the last two, and beside the last. The rigs stand at -1.5 to 1.5.
+    std::vector<double> cameras{0, 1, 1.6};
     int prepare_level = 0, render_level = 0;
     bool with_exact_depth = false;
     std::vector<TruthRegion> exact_in;  ///< where rigs have the stage's depth, not their matchers'

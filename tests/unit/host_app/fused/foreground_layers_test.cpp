@@ -55,5 +55,19 @@ TEST_F(ForegroundLayersTest, NothingBeyondAMatteHidesAPerformer) {
     for (int x = 38; x < 60; ++x) EXPECT_EQ(aside(0, x), far_green) << x;
 }
 
+/// A wrong depth of the background, in front of a performer.
+TEST_F(ForegroundLayersTest, ABackgroundThatARigSeesPastHidesNobody) {
+    DepthView view = plain_wall(0, rig_size_px, 0, cv::Vec4b(0, 0, 0, 0));
+    stand(view, 10, 26, 2, near_red);
+    surfaces_.add(view);
+    background_depth_.upload(DepthImage(rig_size_px, 1.0f));
+    EXPECT_EQ(row(0)(0, 18), near_red);
+    // Eight pixels to the right what is near, and sixteen what is before it: the rig sees no
+    // foreground at its eighth column, where it would see what hides the performer at the 24th.
+    const ColourImage aside = row(-0.25);
+    EXPECT_EQ(aside(0, 30), near_red);
+    EXPECT_EQ(aside(0, 22), set_blue);
+}
+
 }  // namespace
 }  // namespace vantage
