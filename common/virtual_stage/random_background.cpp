@@ -237,7 +237,6 @@ StageScene make_random_background(std::uint64_t seed) {
     }
     add_wires(scene.mesh, dice, free);
     add_sky(scene.mesh, any_tint(dice) * 0.5f);
-    add_performers(scene);
     return scene;
 }
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/virtual_stage/stage_textures.h"
+
 namespace vantage {
 
 StageMaterial matte(int texture_layer, const Eigen::Vector3f& tint, float texture_per_m) {
@@ -13,10 +15,9 @@ StageMaterial matte(int texture_layer, const Eigen::Vector3f& tint, float textur
     return material;
 }
 
-StageScene make_scene(std::uint64_t scene) {
-    return scene == 0 ? make_studio_background() : make_random_background(scene);
-}
+namespace {
 
+/// Adds the performers' meshes and assigns their bones.
 void add_performers(StageScene& scene) {
     int bone = 1;
     for (const PerformerStyle& performer : scene.performers) {
@@ -25,6 +26,20 @@ void add_performers(StageScene& scene) {
         scene.mesh.end_chunk();
         bone += bones_of_performer;
     }
+}
+
+}  // namespace
+
+StageScene make_scene(std::uint64_t scene) {
+    const std::uint64_t seed = scene % plain_performers;
+    StageScene made = seed == 0 ? make_studio_background() : make_random_background(seed);
+    if (scene >= plain_performers)
+        for (PerformerStyle& performer : made.performers)
+            for (StageMaterial* worn : {&performer.skin, &performer.hair, &performer.top,
+                                        &performer.bottom, &performer.shoes})
+                worn->texture_layer = static_cast<int>(StageTexture::plain);
+    add_performers(made);
+    return made;
 }
 
 void add_sky(StageMeshBuilder& mesh, const Eigen::Vector3f& tint) {

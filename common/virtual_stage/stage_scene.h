@@ -28,17 +28,17 @@ struct StageScene {
 };
 
 /// The scene of the demo: a round studio with panelled walls, a lighting grid, props, and three
-/// performers.
+/// performers, whose meshes are not yet there.
 StageScene make_studio_background();
 
-/// A random room from a seed.
+/// A random room from a seed. The performers' meshes are not yet there.
 StageScene make_random_background(std::uint64_t seed);
 
-/// Scene 0 is the studio; every other number is the seed of a random one.
-StageScene make_scene(std::uint64_t scene);
+/// Added to a scene's number: its performers wear plain colours, on which a matcher finds little.
+inline constexpr std::uint64_t plain_performers = 1'000'000;
 
-/// Adds the performers' meshes and assigns their bones.
-void add_performers(StageScene& scene);
+/// Scene 0 is the studio; every other number below plain_performers is the seed of a random one.
+StageScene make_scene(std::uint64_t scene);
 
 /// A matte material with a texture layer.
 StageMaterial matte(int texture_layer, const Eigen::Vector3f& tint, float texture_per_m);

@@ -398,7 +398,6 @@ StageScene make_studio_background() {
     add_risers(mesh);
     add_sky(mesh, {0.16f, 0.20f, 0.30f});
     scene.performers = cast();
-    add_performers(scene);
     return scene;
 }
 

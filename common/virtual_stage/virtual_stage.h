@@ -50,7 +50,7 @@ class VirtualStage {
   public:
     /// Scene 0 is the demo's studio. Every other number is the seed of a random scene with other
     /// shapes, textures, lights, depths and performers; nothing stands right in front of cameras
-    /// within 60 degrees of +z.
+    /// within 60 degrees of +z. With a million added, performers wear plain colours.
     explicit VirtualStage(const ShaderLibrary& library, std::uint64_t scene = 0);
     ~VirtualStage();
     VirtualStage(VirtualStage&&) noexcept;

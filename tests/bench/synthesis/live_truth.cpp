@@ -21,7 +21,10 @@ int main(int argc, char** argv) {
     CLI::App* steps =
         app.add_subcommand("stepped", "Every instant is waited for, at a fixed level");
     steps->add_option("--synth", stepped.synthesisers)->delimiter(',')->capture_default_str();
-    steps->add_option("--sets", stepped.sets, "0: the demo's")->delimiter(',');
+    steps
+        ->add_option("--sets", stepped.sets,
+                     "0: the demo's; with 1000000 added, performers wear plain colours")
+        ->delimiter(',');
     steps->add_option("--rig-size", size, "Of the rigs' and of the virtual pictures");
     steps->add_option("--preset", preset, "Of the rigs' matchers");
     steps->add_option("--disparities", stepped.rigs.disparities);

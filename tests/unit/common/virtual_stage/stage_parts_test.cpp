@@ -343,6 +343,19 @@ TEST_P(EveryScene, NothingStandsRightInFrontOfTheRigs) {
     EXPECT_LT(nearest, 9.0f);
 }
 
+TEST(StageScene, ItsPerformersWearPlainColoursWhereAsked) {
+    const StageScene textured = make_scene(4), plain = make_scene(plain_performers + 4);
+    ASSERT_EQ(textured.performers.size(), plain.performers.size());
+    bool has_texture = false;
+    for (std::size_t i = 0; i < plain.performers.size(); ++i) {
+        EXPECT_EQ(plain.performers[i].top.texture_layer, 0);
+        EXPECT_EQ(plain.performers[i].bottom.texture_layer, 0);
+        EXPECT_EQ(plain.performers[i].height_m, textured.performers[i].height_m);
+        has_texture = has_texture || textured.performers[i].top.texture_layer != 0;
+    }
+    EXPECT_TRUE(has_texture);
+}
+
 TEST(StageTextures, RepeatForASeedAndDifferForAnother) {
     const auto a = draw_stage_textures(4), same = draw_stage_textures(4),
                b = draw_stage_textures(5);
