@@ -32,6 +32,7 @@ BackgroundBaker::BackgroundBaker(const ShaderLibrary& library)
 
 void BackgroundBaker::forget() {
     drawing_.reset();
+    merging_.reset();
     divided_.reset();
     modelled_.clear();
     placed_for_.clear();
@@ -159,23 +160,29 @@ bool BackgroundBaker::draw(std::span<RigHistory* const> rigs) {
         layers_.draw_layer(now.drawn++, now.is_rough ? QuadGrid::coarse : QuadGrid::fine);
         return true;
     }
-    divide();
-    return false;
+    merge();
+    return true;
+}
+
+void BackgroundBaker::merge() {
+    merging_ = std::exchange(drawing_, std::nullopt);
+    const VirtualView& view = probes_[merging_->probe].view;
+    const cv::Size size(view.width_px, view.height_px);
+    picture_.resize(size);
+    depth_m_ = &depth_.find(layers_, size);
+    colour_.draw_plainly(layers_, *depth_m_, picture_, false);
+    merged_ = Fence::insert();
 }
 
 void BackgroundBaker::divide() {
-    divided_ = std::exchange(drawing_, std::nullopt);
-    const VirtualView& view = probes_[divided_->probe].view;
-    const cv::Size size(view.width_px, view.height_px);
-    picture_.resize(size);
-    const Texture& depth_m = depth_.find(layers_, size);
-    colour_.draw_plainly(layers_, depth_m, picture_, false);
-    tiles_ = std::async(std::launch::async,
-                        [view, colour = ColourImage(picture_.colour().download()),
-                         depth_m = DepthImage(depth_m.download()), parallax = parallax_px_m_] {
-                            name_this_thread("bg tiles");
-                            return probe_tiles(view, colour, depth_m, parallax);
-                        });
+    divided_ = std::exchange(merging_, std::nullopt);
+    tiles_ = std::async(
+        std::launch::async,
+        [view = probes_[divided_->probe].view, colour = ColourImage(picture_.colour().download()),
+         depth_m = DepthImage(depth_m_->download()), parallax = parallax_px_m_] {
+            name_this_thread("bg tiles");
+            return probe_tiles(view, colour, depth_m, parallax);
+        });
 }
 
 void BackgroundBaker::take_over(const ProbeTiles& tiles) {
@@ -204,6 +211,12 @@ bool BackgroundBaker::step(std::span<RigHistory* const> rigs, const VirtualView&
         if (divided_) take_over(tiles);
         divided_.reset();
         return true;
+    }
+    if (merging_) {
+        // The thread has instants to prepare while the GPU draws.
+        if (!waits && !merged_.reached()) return false;
+        divide();
+        return false;
     }
     if (!drawing_) begin(rigs, target, now_s);
     return drawing_ && draw(rigs);

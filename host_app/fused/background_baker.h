@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/gl/objects/fence.h"
 #include "host_app/baked/background_probe.h"
 #include "host_app/baked/probe_placement.h"
 #include "host_app/fused/fused_colour.h"
@@ -79,7 +80,9 @@ class BackgroundBaker {
     void begin(std::span<RigHistory* const> rigs, const VirtualView& target, double now_s);
     /// Does the next step of drawing. Returns false if it was the last one.
     bool draw(std::span<RigHistory* const> rigs);
-    /// Reads the probe's picture back and divides it into tiles on another thread.
+    /// Begins to merge the surfaces into the probe's picture.
+    void merge();
+    /// Reads the merged picture back and divides it into tiles on another thread.
     void divide();
     void take_over(const ProbeTiles& tiles);
 
@@ -87,6 +90,7 @@ class BackgroundBaker {
     FusedColour colour_;
     RigLayers layers_;
     DepthPicture picture_;
+    const Texture* depth_m_ = nullptr;  ///< depth_'s last result
     EdgeConfidence edge_confidence_;
     TriangleBuilder triangles_;
     FullscreenPass learnt_colours_;
@@ -98,6 +102,8 @@ class BackgroundBaker {
     double parallax_px_m_ = 0;
     double changed_s_ = -1;
     std::optional<Drawing> drawing_;
+    std::optional<Drawing> merging_;  ///< whose picture the GPU merges
+    Fence merged_;
     std::optional<Drawing> divided_;  ///< whose tiles are awaited; empty: nobody wants them
     std::future<ProbeTiles> tiles_;
     std::shared_ptr<const BakedExtra> baked_;  ///< null until the first probe is made

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -111,16 +110,12 @@ class FusedRenderer final : public ViewRenderer {
     const Texture& finished(const Texture& picture, std::span<const InstantRig* const> rigs,
                             const VirtualView& view) {
         const Texture& filtered = impulses_.filter(picture, *depth_m_);
-        const auto near = std::find_if(rigs.begin(), rigs.end(), [&](const InstantRig* rig) {
-            return rig->picture &&
-                   nearness(rig->camera(), rig->surface->median_depth_m(), view) > 0;
-        });
-        if (near == rigs.end()) return filtered;
+        const std::optional<NearRig> near = near_rig(rigs, view);
+        if (!near) return filtered;
         if (origins_ && origins_->shares)
-            origins_->shares = &own_.lay_over_shares(*origins_->shares,
-                                                     static_cast<std::size_t>(near - rigs.begin()),
-                                                     *depth_m_, **near, view);
-        return own_.lay_over(filtered, *depth_m_, **near, view);
+            origins_->shares =
+                &own_.lay_over_shares(*origins_->shares, *depth_m_, *near, rigs, view);
+        return own_.lay_over(filtered, *depth_m_, *near, rigs, view);
     }
 
     FusedColour colour_;

@@ -14,7 +14,7 @@ uniform sampler2D foreground;        // of the rig; alpha: its share of each pix
 uniform sampler2D foreground_depth;  // metres, 0 = none, negative beyond its share
 uniform mat4 pixel_from_target;      // the rig's (u * z, v * z, z, 1) from the virtual camera's
 uniform float typical_m;             // depth where none is known
-uniform float presence;              // 0..1, less while the rig comes or goes, and farther from it
+uniform float rig_weight;            // 0..1, less farther from the rig, and while it comes or goes
 uniform vec2 parallax_px;            // in the rig's picture: up to the first, its picture prevails; from the second on it does not count
 #if SHARES
 uniform vec4 own_share;  // 1 in the rig's channel
@@ -50,7 +50,7 @@ void main() {
     }
     vec2 place = q.xy / q.z;
     vec2 inside = min(place, size - 1.0 - place);
-    float weight = presence * (1.0 - smoothstep(parallax_px.x, parallax_px.y, distance(place, far.xy / far.z))) *
+    float weight = rig_weight * (1.0 - smoothstep(parallax_px.x, parallax_px.y, distance(place, far.xy / far.z))) *
                    clamp(1.0 + min(inside.x, inside.y) / border_px, 0.0, 1.0);
     if (weight <= 0.0) return;
 #if SHARES
