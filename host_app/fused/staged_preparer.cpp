@@ -24,6 +24,9 @@ constexpr double learnt_before_match_s = 2.5, first_match_rest_s = 5, longest_ma
 /// Instants that a background must be learnt from before it is baked: earlier it may still hold
 /// performers.
 constexpr int baked_from = 5;
+/// Instants after which a rough model is made once more, if none was refined until then: it knows
+/// places that performers have left meanwhile.
+constexpr int rough_again_at = 10;
 /// Share of a rig's picture whose background has changed, from which on its model is made anew, and
 /// the share from which on it is patched at once and what was baked before is not drawn any more. A
 /// place that a performer leaves for the first time is a small change.
@@ -177,7 +180,11 @@ void StagedPreparer::look_at_sets() {
 void StagedPreparer::make_a_first_model() {
     for (RigHistory* rig : uploaded_) {
         const std::optional<RigHistory::Model>& model = rig->model();
-        if (rig->learnt_instants() < baked_from || (model && model->made >= baked_from)) continue;
+        if (rig->learnt_instants() < baked_from) continue;
+        const bool is_rough = model && model->rank > 0;
+        const int sure =
+            is_rough && rig->learnt_instants() >= rough_again_at ? rough_again_at : baked_from;
+        if (model && model->made >= sure) continue;
         if (model && model->rank == 0) {
             make_model_due(*rig);
         } else if (!level_.is_refined) {
