@@ -25,6 +25,7 @@ layout(location = 1) out float fused_z;
 
 const float past = 1.03;   // share of a surface's depth from which on a rig sees past it
 const int past_steps = 3;  // from such a surface to the one that the rig sees
+const float typical = 100.0;  // the scene's typical depth, relative to the near plane's
 
 void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec3 sum, inout float weight, inout vec4 shares,
          inout float confidence) {
@@ -53,8 +54,9 @@ void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, inout vec
 }
 
 #if BAKED
-// Where a rig sees past a baked surface that no rig has any more, shows what that rig sees there; false: it does not.
-bool show_past(int i, sampler2D picture, sampler2D map, vec2 pixel, float z) {
+// Where a rig sees past a surface at depth z, which no rig has any more, shows what that rig sees there: it sees past
+// where its own depth is at least a share of the surface's. Returns false where it does not.
+bool show_past(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, float share) {
     vec2 uv;
     for (int k = 0; k < past_steps; ++k) {
         vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
@@ -62,7 +64,7 @@ bool show_past(int i, sampler2D picture, sampler2D map, vec2 pixel, float z) {
         vec2 margin = min(uv, 1.0 - uv);
         if (q.z <= 0.0 || min(margin.x, margin.y) < 0.0) return false;
         float there = abs(textureLod(map, uv, 0.0).r);
-        if (k == 0 && there < past * q.z) return false;
+        if (there <= 0.0 || (k == 0 && there < share * q.z)) return false;
         z *= there / q.z;
     }
     fused = vec4(textureLod(picture, uv, 0.0).rgb, 1.0);
@@ -83,7 +85,16 @@ void show_background(ivec2 at) {
     fused = texelFetch(baked_colour, at, 0);
     fused_z = own;
 #endif
+#if BAKED
+    if (z == 0.0) {  // no probe reaches here
+        bool is_shown = false;
+#define SHOW_FROM(i) is_shown = is_shown || show_past(i, colour[i], source_depth[i], vec2(at), typical * near_m, 0.0);
+        FOR_LAYERS(SHOW_FROM)
+        return;
+    }
+#else
     if (z == 0.0) return;
+#endif
     vec3 sum = vec3(0.0);
     vec4 shares = vec4(0.0);
     float weight = 0.0, confidence = 0.0;
@@ -92,7 +103,7 @@ void show_background(ivec2 at) {
 #if BAKED
     if (weight == 0.0) {
         bool is_found = false;
-#define SHOW_PAST(i) is_found = is_found || show_past(i, colour[i], source_depth[i], vec2(at), z);
+#define SHOW_PAST(i) is_found = is_found || show_past(i, colour[i], source_depth[i], vec2(at), z, past);
         FOR_LAYERS(SHOW_PAST)
         return;
     }
