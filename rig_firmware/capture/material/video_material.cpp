@@ -2,10 +2,12 @@
 #include <chrono>
 #include <cstdint>
 #include <future>
+#include <limits>
 #include <memory>
 #include <utility>
 
 #include "common/av/video_reader.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
@@ -100,12 +102,20 @@ class VideoRounds {
     cv::Size size_;
 };
 
+std::uint64_t most_frames_of(const RigConfig::Source& source) {
+    return source.frames > 0 ? static_cast<std::uint64_t>(source.frames)
+                             : std::numeric_limits<std::uint64_t>::max();
+}
+
 class VideoMaterial final : public StereoMaterial {
   public:
     explicit VideoMaterial(const RigConfig::Source& source)
-        : loop_(source.loop), period_(from_s(1 / source.rate_hz)), left_(source.left, loop_) {
+        : loop_(source.loop),
+          most_(most_frames_of(source)),
+          period_(from_s(1 / source.rate_hz)),
+          left_(source.left, loop_) {
         size_ = left_.size();
-        length_ = std::max<std::uint64_t>(1, left_.length());
+        length_ = std::clamp<std::uint64_t>(left_.length(), 1, most_);
         if (source.right.empty()) {
             size_.width /= 2;
             return;
@@ -143,7 +153,7 @@ class VideoMaterial final : public StereoMaterial {
     std::string describe() const override {
         return fmt::format("video {}{}{}", left_.describe(),
                            right_ ? " and " + right_->describe() : ", side by side",
-                           loop_ ? ", looping" : "");
+                           loop_ ? ", looping over " + counted(length_, "frame") : "");
     }
 
   private:
@@ -169,11 +179,11 @@ class VideoMaterial final : public StereoMaterial {
     /// The first pulse shows the first frame; frames of missed pulses are left out.
     std::optional<StereoPair> once(std::uint64_t pulse_index) {
         if (!first_pulse_) first_pulse_ = pulse_index;
-        const std::uint64_t wanted = pulse_index - *first_pulse_;
+        const std::uint64_t wanted = std::min(pulse_index - *first_pulse_, most_);
         unshown_ = 0;
         for (; position_ < wanted; ++position_, ++unshown_)
             if (!left_.skip() || (right_ && !right_->skip())) return std::nullopt;
-        return next();
+        return wanted < most_ ? next() : std::nullopt;
     }
 
     /// Makes this frame of a round the next one. A video that is decoded at the rate of pulses goes
@@ -201,6 +211,7 @@ class VideoMaterial final : public StereoMaterial {
     }
 
     bool loop_;
+    std::uint64_t most_;  ///< frames that are shown of a round
     bool has_shown_ = false;
     std::uint64_t length_ = 0;    ///< of a looping round; the shorter side ends it
     std::uint64_t position_ = 0;  ///< number of the next frame in its round

@@ -99,6 +99,9 @@ TEST_F(StereoMaterialTest, BindsLoopingPicturesToThePulse) {
     EXPECT_EQ(grey(one->pair_of(3001)->left), 6);
     EXPECT_EQ(grey(one->pair_of(3003)->left), 5);
     EXPECT_EQ(grey(other->pair_of(3004)->right), 60);
+    source.frames = 1;
+    const auto alone = open_material(source);
+    EXPECT_EQ(grey(alone->pair_of(3001)->left), 5) << "no more than stated";
 }
 
 /// Videos of 12 frames whose grey is 10 times their number, in two codecs: every frame is a key
@@ -143,6 +146,29 @@ TEST_P(VideoInStep, ShowsTheFrameOfThePulseWheneverItIsStarted) {
     EXPECT_EQ(number(*material, 12'027), 3) << "in the next round";
     EXPECT_EQ(number(*material, 12'027 + 12'000'009), 0) << "a million rounds later";
     EXPECT_EQ(number(*material, 12'026), 2) << "after the clock was set back";
+}
+
+TEST_P(VideoInStep, ShowsNoMoreFramesThanStated) {
+    RigConfig::Source source = film(GetParam());
+    if (source.left.empty()) GTEST_SKIP() << "SKIPPED: OpenCV writes no video with " << GetParam();
+    source.frames = 5;
+    const auto looping = open_material(source);
+    EXPECT_NE(looping->describe().find("looping over 5 frames"), std::string::npos);
+    for (std::uint64_t pulse = 9001; pulse < 9020; ++pulse) {
+        const auto pair = looping->pair_of(pulse);
+        ASSERT_TRUE(pair);
+        EXPECT_EQ((grey(pair->left) + 5) / 10, static_cast<int>(pulse % 5));
+    }
+    source.loop = false;
+    const auto once = open_material(source);
+    EXPECT_TRUE(once->pair_of(9001));
+    EXPECT_TRUE(once->pair_of(9005));
+    EXPECT_FALSE(once->pair_of(9006));
+    EXPECT_EQ(once->unshown(), 0u);
+    EXPECT_NE(open_material({.left = source.left, .right = source.right, .frames = 50})
+                  ->describe()
+                  .find("looping over 12 frames"),
+              std::string::npos);
 }
 
 TEST_P(VideoInStep, LeavesOutFramesOfMissedPulsesAndEndsWithoutLooping) {
