@@ -1,5 +1,6 @@
 #include "common/av/video_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -73,15 +74,36 @@ struct VideoReader::Impl {
         }
     }
 
-    bool seek(std::uint64_t frame) {
+    bool has_constant_rate() const {
         const AVStream* stream = format_->streams[stream_];
         const AVRational rate = stream->avg_frame_rate;
-        if (rate.num <= 0 || rate.den <= 0 || av_cmp_q(rate, stream->r_frame_rate) != 0)
-            return false;
+        return rate.num > 0 && rate.den > 0 && av_cmp_q(rate, stream->r_frame_rate) == 0;
+    }
+    /// Time stamp of a frame; precondition: the rate is constant.
+    std::int64_t time_of(std::uint64_t frame) const {
+        const AVStream* stream = format_->streams[stream_];
         const std::int64_t start = stream->start_time == AV_NOPTS_VALUE ? 0 : stream->start_time;
-        const std::int64_t period = av_rescale_q(1, av_inv_q(rate), stream->time_base);
-        const std::int64_t wanted = start + av_rescale_q(static_cast<std::int64_t>(frame),
-                                                         av_inv_q(rate), stream->time_base);
+        return start + av_rescale_q(static_cast<std::int64_t>(frame),
+                                    av_inv_q(stream->avg_frame_rate), stream->time_base);
+    }
+
+    std::optional<std::uint64_t> key_frame_before(std::uint64_t frame) const {
+        if (!has_constant_rate()) return std::nullopt;
+        AVStream* stream = format_->streams[stream_];
+        const AVIndexEntry* entry =
+            avformat_index_get_entry_from_timestamp(stream, time_of(frame), AVSEEK_FLAG_BACKWARD);
+        if (!entry) return std::nullopt;
+        const std::int64_t number = av_rescale_q(entry->timestamp - time_of(0), stream->time_base,
+                                                 av_inv_q(stream->avg_frame_rate));
+        return static_cast<std::uint64_t>(std::max<std::int64_t>(0, number));
+    }
+
+    bool seek(std::uint64_t frame) {
+        if (!has_constant_rate()) return false;
+        const AVStream* stream = format_->streams[stream_];
+        const std::int64_t period =
+            av_rescale_q(1, av_inv_q(stream->avg_frame_rate), stream->time_base);
+        const std::int64_t wanted = time_of(frame);
         if (av_seek_frame(format_.get(), stream_, wanted, AVSEEK_FLAG_BACKWARD) < 0) return false;
         avcodec_flush_buffers(codec_.get());
         has_pending_ = false;
@@ -166,6 +188,10 @@ bool VideoReader::skip(std::uint64_t frames) {
 }
 
 bool VideoReader::seek(std::uint64_t frame) { return impl_->seek(frame); }
+
+std::optional<std::uint64_t> VideoReader::key_frame_before(std::uint64_t frame) const {
+    return impl_->key_frame_before(frame);
+}
 
 std::uint64_t VideoReader::count() { return impl_->count(); }
 

@@ -26,6 +26,10 @@ class VideoReader {
     /// the file has no constant rate or cannot be searched.
     bool seek(std::uint64_t frame);
 
+    /// Number of the last key frame at or before this frame, by the file's index; empty if the file
+    /// has no index or no constant rate. Decoding can begin there.
+    std::optional<std::uint64_t> key_frame_before(std::uint64_t frame) const;
+
     /// Number of frames, as the file states it or counted in the file without decoding them; the
     /// decoder may deliver fewer. Call it before next().
     std::uint64_t count();

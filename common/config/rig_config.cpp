@@ -42,6 +42,7 @@ void read_source(TomlTable& table, RigConfig::Source& source) {
                      "side_by_side = true if each of its pictures holds the left side in its left "
                      "half and the right side in its right half");
     table.read("first", source.first, {0});
+    table.read("frames", source.frames, {0});
     table.read("loop", source.loop);
     table.read("pixel_format", source.pixel_format);
     if (!source.pixel_format.empty() && source.pixel_format.size() != 4)

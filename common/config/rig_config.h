@@ -27,6 +27,7 @@ struct RigConfig {
                                             ///< patterns, folders or videos
         bool side_by_side = false;          ///< `left` holds both images side by side
         int first = 0;                      ///< first number of a pattern
+        int frames = 0;  ///< most pairs of a series or video that are shown; 0: all
         bool loop = true;
         // v4l2
         std::string left_device = "", right_device = "";  ///< right empty: a side-by-side device

@@ -30,6 +30,7 @@ struct TakeOptions {
     std::vector<std::string> takes;
     std::string clips;
     std::vector<std::string> media;
+    bool from_zero = false;
     FilmOptions film;
     bool json = false;
 };
@@ -246,7 +247,9 @@ void export_edit_list(const TakeOptions& options) {
     FilmOptions others = options.film;
     others.rate.clear();
     if (others.is_any() || !options.from.empty() || !options.to.empty() || options.every != 1)
-        fail("--as {} takes --clips, --media and --rate only", options.form);
+        fail("--as {} takes --clips, --media, --from-zero and --rate only", options.form);
+    if (options.from_zero && options.form == "edl")
+        fail("--from-zero applies only to --as otio: an EDL refers to films by their time code");
     if (std::filesystem::exists(options.output))
         fail("{} already exists; choose another name for the edit list", options.output);
     const TakeReader take(options.take);
@@ -255,7 +258,8 @@ void export_edit_list(const TakeOptions& options) {
     for (const std::string& film : options.media) films.push_back(read_edit_film(film));
     std::optional<double> rate_hz;
     if (!options.film.rate.empty()) rate_hz = parse_rate(options.film.rate);
-    const EditList list = make_edit_list(take, clips_of(take, options), films, rate_hz);
+    EditList list = make_edit_list(take, clips_of(take, options), films, rate_hz);
+    if (options.from_zero) count_films_from_zero(list);
     if (options.form == "edl")
         write_edl(list, options.output);
     else
@@ -276,8 +280,8 @@ void export_edit_list(const TakeOptions& options) {
 
 void export_take(const TakeOptions& options) {
     if (options.form == "otio" || options.form == "edl") return export_edit_list(options);
-    if (!options.clips.empty() || !options.media.empty())
-        fail("--clips and --media apply only to --as otio and --as edl");
+    if (!options.clips.empty() || !options.media.empty() || options.from_zero)
+        fail("--clips, --media and --from-zero apply only to --as otio and --as edl");
     const bool is_film = options.form == "film";
     const ExportFormat* format =
         options.form == "camera" || is_film ? nullptr : &find_export_format(options.form);
@@ -408,6 +412,11 @@ CommandEntry take_command_entry() {
                          "Refer to these films of the take at normal speed (.mkv, .mp4); an event "
                          "takes the first that has its frames (default: offline)")
             ->expected(1, 100)
+            ->group("Edit list");
+        export_command
+            ->add_flag("--from-zero", options->from_zero,
+                       "Count the frames of each film from 0, for editors that ignore the time "
+                       "code at which a film starts (otio only)")
             ->group("Edit list");
         options->film.add_to(*export_command);
     }};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -232,6 +233,17 @@ class EditListMaker {
 
 std::int64_t EditEvent::source_frames() const {
     return std::max<std::int64_t>(1, std::llround(static_cast<double>(frames) * speed));
+}
+
+void count_films_from_zero(EditList& list) {
+    for (std::size_t i = 0; i < list.sources.size(); ++i) {
+        EditSource& source = list.sources[i];
+        if (!source.file) continue;
+        const std::int64_t start = std::exchange(source.range.in, 0);
+        for (EditMark& mark : source.marks) mark.in -= start;
+        for (EditEvent& event : list.events)
+            if (event.source == i) event.in -= start;
+    }
 }
 
 EditFilm read_edit_film(const std::filesystem::path& file) {

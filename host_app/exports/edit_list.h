@@ -69,6 +69,10 @@ struct EditList {
 EditList make_edit_list(const TakeReader& take, const ClipBook& book,
                         const std::vector<EditFilm>& films, std::optional<double> rate_hz);
 
+/// Counts the frames of each film from 0 instead of from its time code, for editors that ignore the
+/// time code at which a film starts. Offline sources keep theirs.
+void count_films_from_zero(EditList& list);
+
 /// Writes an OpenTimelineIO timeline: a track "Play list" of the events, over one disabled track
 /// per source, whose marks are markers. It begins at 01:00:00:00.
 void write_otio(const EditList& list, const std::filesystem::path& file);

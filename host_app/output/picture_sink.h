@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/av/sound.h"
+#include "common/base/time/time.h"
 #include "common/image/image.h"
 #include "common/receive/frame_set.h"
 #include "host_app/flight/camera_state.h"
@@ -14,6 +15,7 @@ namespace vantage {
 /// Result of one tick of the programme. Images and frame sets are shared and immutable.
 struct ProgrammePicture {
     std::uint64_t tick = 0;  ///< counts from the first picture, without gaps
+    MonotonicTime due{};     ///< when the tick was due; the picture may have come later
     ColourImage picture;     ///< without overlays
     ColourImage overlaid;    ///< for operators: with the source map if requested
     std::shared_ptr<const FrameSet> set;

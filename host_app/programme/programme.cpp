@@ -401,8 +401,11 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
     const bool is_new =
         frames_.rendered && (!reprojected || reprojected->rendered == frames_.rendered);
     if (is_new) {
-        // Ticks before the first frame do not count.
-        if (!frames_.shown) passed_ticks = 1;
+        // Ticks before the first frame do not count: the newest of those that passed is the first.
+        if (!frames_.shown && passed_ticks > 1) {
+            due += from_s(static_cast<double>(passed_ticks - 1) / settings_.rate_hz);
+            passed_ticks = 1;
+        }
         note(*frames_.rendered, now);
         frames_.shown = frames_.handed = std::exchange(frames_.rendered, nullptr);
         note_rest(*frames_.shown, now);
@@ -439,6 +442,7 @@ void Programme::give_to_sinks(const MadePicture& shown, std::uint64_t ticks, Mon
     for (std::uint64_t i = 0; i < ticks; ++i, ++sink_ticks_) {
         const ProgrammePicture picture{
             sink_ticks_,
+            due + from_s(static_cast<double>(i) / settings_.rate_hz),
             shown.picture,
             shown.sources ? shown.sources->picture : shown.picture,
             shown.job.instant->set,

@@ -332,6 +332,7 @@ def main():
         text += "".join(f"| {name} | {value} |\n" for name, value in found.items())
     text += (
         "\n## Limits\n\n"
+        "- Other programs that need a processor lengthen the longest times; the load above tells how many ran.\n"
         "- Loopback has no network delay; a studio's network adds its own.\n"
         "- Real devices were not connected: the measuring programs speak their protocols.\n\n"
         "[Files of other programs](interop.md) lists what was read from them.\n"

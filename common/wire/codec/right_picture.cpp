@@ -8,7 +8,7 @@
 namespace vantage {
 namespace {
 
-constexpr int quality = 95;
+constexpr int right_quality = 95;
 /// The matching costs take 160 MB at this size.
 constexpr double most_pixels = 640 * 480;
 
@@ -22,10 +22,10 @@ cv::Size background_match_size(cv::Size colour) {
 
 std::vector<std::byte> pack_right_picture(JpegEncoder& jpeg, const ColourImage& right) {
     const cv::Size size = background_match_size(right.size());
-    if (size == right.size()) return jpeg.encode(right, quality, Chroma::full);
+    if (size == right.size()) return jpeg.encode(right, right_quality, Chroma::full);
     cv::Mat sized;
     cv::resize(right, sized, size, 0, 0, cv::INTER_AREA);
-    return jpeg.encode(ColourImage(sized), quality, Chroma::full);
+    return jpeg.encode(ColourImage(sized), right_quality, Chroma::full);
 }
 
 }  // namespace vantage

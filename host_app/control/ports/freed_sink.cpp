@@ -20,7 +20,7 @@ class FreedSink final : public PictureSink {
         id_ = static_cast<std::uint8_t>(url.number("camera", 0, most_camera_id).value_or(1));
     }
     std::string name() const override { return name_; }
-    void take(const ProgrammePicture& picture) override { pacer_.take(picture); }
+    void take(const ProgrammePicture& picture) override { pacer_.take(camera_tick_of(picture)); }
     void finish() override { pacer_.stop(); }
 
   private:

@@ -42,7 +42,14 @@ class OpentrackioSink final : public PictureSink {
         if (rate_hz <= most_timecode_hz) timecode_.emplace(pulse_rate_hz, rate_hz);
     }
     std::string name() const override { return name_; }
-    void take(const ProgrammePicture& picture) override { pacer_.take(picture); }
+    void take(const ProgrammePicture& picture) override {
+        CameraTick tick = camera_tick_of(picture);
+        if (picture.set) {
+            if (timecode_) tick.timecode = SmpteCode::parse(timecode_->of(*picture.set));
+            tick.ptp_locked = is_ptp_locked(*picture.set);
+        }
+        pacer_.take(tick);
+    }
     void finish() override { pacer_.stop(); }
 
   private:
@@ -53,12 +60,8 @@ class OpentrackioSink final : public PictureSink {
         sample_.sample_id = uuid_urn(base_, tick.tick + 1);
         sample_.width_px = tick.width_px;
         sample_.height_px = tick.height_px;
-        sample_.timecode.reset();
-        sample_.ptp_locked.reset();
-        if (tick.set) {
-            if (timecode_) sample_.timecode = SmpteCode::parse(timecode_->of(*tick.set));
-            sample_.ptp_locked = is_ptp_locked(*tick.set);
-        }
+        sample_.timecode = tick.timecode;
+        sample_.ptp_locked = tick.ptp_locked;
         // UDP has no receipt: a missing receiver is not an error.
         for (const std::vector<std::byte>& packet :
              opentrackio_packets(write_opentrackio_sample(sample_, encoding_), encoding_,

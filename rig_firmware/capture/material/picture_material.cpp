@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -63,7 +64,10 @@ using PairFiles = std::vector<std::pair<std::filesystem::path, std::filesystem::
 /// Series of image pairs, one file per side; an empty right name means side-by-side images.
 class PairSeries final : public StereoMaterial {
   public:
-    PairSeries(PairFiles files, bool loop) : files_(std::move(files)), loop_(loop) {
+    PairSeries(PairFiles files, const RigConfig::Source& source)
+        : files_(std::move(files)), loop_(source.loop) {
+        if (source.frames > 0)
+            files_.resize(std::min(files_.size(), static_cast<std::size_t>(source.frames)));
         std::vector<std::filesystem::path> names;
         for (const auto& [left, right] : files_) {
             names.push_back(left);
@@ -153,9 +157,9 @@ PairFiles listed_pairs(const RigConfig::Source& source) {
 
 std::unique_ptr<StereoMaterial> open_pictures(const RigConfig::Source& source) {
     if (is_list(source.left) || is_list(source.right))
-        return std::make_unique<PairSeries>(listed_pairs(source), source.loop);
+        return std::make_unique<PairSeries>(listed_pairs(source), source);
     if (NumberedFiles::is_pattern(source.left))
-        return std::make_unique<PairSeries>(numbered_pairs(source), source.loop);
+        return std::make_unique<PairSeries>(numbered_pairs(source), source);
     if (NumberedFiles::is_pattern(source.right))
         fail(
             "'right' names numbered pictures and 'left' a single one, {}: give both a number, or "

@@ -49,8 +49,10 @@ std::unique_ptr<StereoMaterial> open_material(const RigConfig::Source& source);
 std::unique_ptr<StereoMaterial> open_pictures(const RigConfig::Source& source);
 
 /// Opens one side-by-side video, or one video per side, in any format of FFmpeg; the shorter video
-/// ends a round. Every pulse shows the next frame. A computer that cannot decode at the pulse rate
-/// therefore plays more slowly instead of falling behind without limit.
+/// ends a round. As with images, pulse k of a looping video shows frame k modulo their number, and
+/// without looping the first pulse shows the first frame. Frames of missed pulses are left out, up
+/// to a key frame without decoding them. A computer that cannot decode at the pulse rate shows
+/// fewer frames, later, and never another one than that of the pulse.
 std::unique_ptr<StereoMaterial> open_video(const RigConfig::Source& source);
 
 }  // namespace vantage

@@ -2,10 +2,12 @@
 #include <chrono>
 #include <cstdint>
 #include <future>
+#include <limits>
 #include <memory>
 #include <utility>
 
 #include "common/av/video_reader.h"
+#include "common/base/counted.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/log_limiter.h"
@@ -40,20 +42,17 @@ class VideoRounds {
         return picture;
     }
 
-    /// Makes this frame the next one of the first round.
-    void start_at(std::uint64_t frame) {
-        if (frame == 0) return;
-        round_.first.reset();
-        if (round_.reader->seek(frame)) return;
-        round_.reader = std::make_unique<VideoReader>(path_);
-        round_.reader->skip(frame);
+    /// Goes on from one frame of this round to a later one, through a key frame between them if the
+    /// file's index has one. At the end of the round next() is empty.
+    void go_on(std::uint64_t from, std::uint64_t to) {
+        if (from == to) return;
+        const std::optional<std::uint64_t> key = round_.reader->key_frame_before(to);
+        if (key && *key > from + 1 && is_searchable_) return start_at(to);
+        while (from < to && skip()) ++from;
     }
 
-    /// Drops frames of this round. Returns false if it ends before them.
-    bool skip(std::uint64_t frames) {
-        if (frames > 0 && std::exchange(round_.first, std::nullopt)) --frames;
-        return round_.reader->skip(frames);
-    }
+    /// Drops the next frame. Returns false at the end of the round.
+    bool skip() { return std::exchange(round_.first, std::nullopt) || round_.reader->skip(1); }
 
     /// Starts the next round of a looping video.
     void begin_again() {
@@ -78,8 +77,18 @@ class VideoRounds {
     };
     static Round open(const std::string& path) {
         Round round{std::make_unique<VideoReader>(path), {}};
+        // Matroska's index is read at the first search.
+        if (!round.reader->seek(0)) round.reader = std::make_unique<VideoReader>(path);
         round.first = round.reader->next();
         return round;
+    }
+    /// Makes this frame the next one of the round.
+    void start_at(std::uint64_t frame) {
+        round_.first.reset();
+        if (round_.reader->seek(frame)) return;
+        is_searchable_ = false;
+        round_.reader = std::make_unique<VideoReader>(path_);
+        round_.reader->skip(frame);
     }
     void prepare() {
         upcoming_ = std::async(std::launch::async, [path = path_] { return open(path); });
@@ -89,15 +98,24 @@ class VideoRounds {
     std::uint64_t length_;
     Round round_;
     std::future<Round> upcoming_;
+    bool is_searchable_ = true;
     cv::Size size_;
 };
+
+std::uint64_t most_frames_of(const RigConfig::Source& source) {
+    return source.frames > 0 ? static_cast<std::uint64_t>(source.frames)
+                             : std::numeric_limits<std::uint64_t>::max();
+}
 
 class VideoMaterial final : public StereoMaterial {
   public:
     explicit VideoMaterial(const RigConfig::Source& source)
-        : loop_(source.loop), period_(from_s(1 / source.rate_hz)), left_(source.left, loop_) {
+        : loop_(source.loop),
+          most_(most_frames_of(source)),
+          period_(from_s(1 / source.rate_hz)),
+          left_(source.left, loop_) {
         size_ = left_.size();
-        length_ = std::max<std::uint64_t>(1, left_.length());
+        length_ = std::clamp<std::uint64_t>(left_.length(), 1, most_);
         if (source.right.empty()) {
             size_.width /= 2;
             return;
@@ -114,21 +132,28 @@ class VideoMaterial final : public StereoMaterial {
     double rate_hz() const override { return left_.rate_hz(); }
 
     std::optional<StereoPair> pair_of(std::uint64_t pulse_index) override {
-        if (!loop_) return next();
-        catch_up(pulse_index);
-        ++position_;
-        if (std::optional<StereoPair> pair = next()) return pair;
-        // The decoder delivers fewer frames than the file announces: the round ends here.
-        length_ = std::max<std::uint64_t>(1, position_ - 1);
-        begin_again();
-        position_ = 1;
-        return next();
+        const MonotonicTime begun = MonotonicClock::now();
+        std::optional<StereoPair> pair = loop_ ? looping(pulse_index) : once(pulse_index);
+        const MonotonicTime now = MonotonicClock::now();
+        // The first frame is decoded already, or searched for.
+        if (has_shown_) usual_ = usual_ == 0ns ? now - begun : (4 * usual_ + (now - begun)) / 5;
+        has_shown_ = true;
+        if (usual_ > period_ && lateness_.count(1, now))
+            log_warning(
+                "{} is decoded more slowly than pulses come: a frame takes {:.0f} ms and pulses "
+                "are "
+                "{:.0f} ms apart, so frames are left out to stay in step with other rigs; play "
+                "smaller videos or ones with more key frames, or lower rate_hz",
+                left_.path(), to_ms(usual_), to_ms(period_));
+        return pair;
     }
+
+    std::uint64_t unshown() const override { return unshown_; }
 
     std::string describe() const override {
         return fmt::format("video {}{}{}", left_.describe(),
                            right_ ? " and " + right_->describe() : ", side by side",
-                           loop_ ? ", looping" : "");
+                           loop_ ? ", looping over " + counted(length_, "frame") : "");
     }
 
   private:
@@ -138,53 +163,42 @@ class VideoMaterial final : public StereoMaterial {
         position_ = 0;
     }
 
-    /// Moves on to the frame of this pulse, which is its number modulo the length of a round, so
-    /// that all rigs of a stage show frames of one number. After missed pulses it drops as many
-    /// frames as are decoded within one period. A computer that decodes more slowly than the pulses
-    /// drops none: it would fall behind without limit, and plays more slowly instead.
-    void catch_up(std::uint64_t pulse_index) {
-        const std::uint64_t wanted = pulse_index % length_;
-        if (position_ >= length_) begin_again();
-        if (!std::exchange(has_started_, true)) {
-            left_.start_at(wanted);
-            if (right_) right_->start_at(wanted);
-            position_ = wanted;
-            return;
-        }
-        const std::uint64_t late = (wanted + length_ - position_) % length_;
-        std::uint64_t behind = std::min(droppable(), late);
-        if (late > behind && lateness_.count(1, MonotonicClock::now()))
-            log_warning(
-                "{} is decoded more slowly than pulses come: this frame is {} behind its pulse, so "
-                "that rigs with other videos show other moments; play smaller videos, or lower "
-                "rate_hz",
-                left_.path(), late - behind);
-        if (position_ + behind >= length_) {
-            behind = position_ + behind - length_;
+    /// The frame of this pulse, which is its number modulo the length of a round, so that all rigs
+    /// of a stage show frames of one number, however late they are.
+    std::optional<StereoPair> looping(std::uint64_t pulse_index) {
+        for (;;) {
+            go_to(pulse_index % length_);
+            std::optional<StereoPair> pair = next();
+            if (pair || length_ == 1) return pair;
+            // The decoder delivers fewer frames than the file announces: the round ends here.
+            length_ = std::max<std::uint64_t>(1, position_ - 1);
             begin_again();
         }
-        left_.skip(behind);
-        if (right_) right_->skip(behind);
-        position_ += behind;
     }
 
-    /// Frames that can be decoded within one period beside the one that is shown.
-    std::uint64_t droppable() const {
-        constexpr std::int64_t most = 100;
-        return static_cast<std::uint64_t>(
-            std::clamp<std::int64_t>(period_ / std::max(decoding_, 1ns) - 1, 0, most));
+    /// The first pulse shows the first frame; frames of missed pulses are left out.
+    std::optional<StereoPair> once(std::uint64_t pulse_index) {
+        if (!first_pulse_) first_pulse_ = pulse_index;
+        const std::uint64_t wanted = std::min(pulse_index - *first_pulse_, most_);
+        unshown_ = 0;
+        for (; position_ < wanted; ++position_, ++unshown_)
+            if (!left_.skip() || (right_ && !right_->skip())) return std::nullopt;
+        return wanted < most_ ? next() : std::nullopt;
+    }
+
+    /// Makes this frame of a round the next one. A video that is decoded at the rate of pulses goes
+    /// on by one frame at a time; after missed pulses it leaves out as many.
+    void go_to(std::uint64_t wanted) {
+        if (position_ >= length_ || wanted < position_) begin_again();
+        left_.go_on(position_, wanted);
+        if (right_) right_->go_on(position_, wanted);
+        position_ = wanted;
     }
 
     /// Next pair; empty once either video has ended.
     std::optional<StereoPair> next() {
-        const MonotonicTime begun = MonotonicClock::now();
-        std::optional<StereoPair> pair = decode();
-        // The first frame of a round and the one after a search are decoded already.
-        constexpr std::uint64_t decoded_already = 2;
-        const std::chrono::nanoseconds taken = MonotonicClock::now() - begun;
-        if (++decoded_ > decoded_already && position_ > 1)
-            decoding_ = decoding_ == 0ns ? taken : (4 * decoding_ + taken) / 5;
-        return pair;
+        ++position_;
+        return decode();
     }
 
     std::optional<StereoPair> decode() {
@@ -197,12 +211,14 @@ class VideoMaterial final : public StereoMaterial {
     }
 
     bool loop_;
-    bool has_started_ = false;
+    std::uint64_t most_;  ///< frames that are shown of a round
+    bool has_shown_ = false;
     std::uint64_t length_ = 0;    ///< of a looping round; the shorter side ends it
     std::uint64_t position_ = 0;  ///< number of the next frame in its round
     std::chrono::nanoseconds period_;
-    std::chrono::nanoseconds decoding_{0};  ///< smoothed time that a pair takes; 0: not known yet
-    std::uint64_t decoded_ = 0;
+    std::chrono::nanoseconds usual_{0};         ///< smoothed time that a frame takes; 0: unknown
+    std::optional<std::uint64_t> first_pulse_;  ///< without looping
+    std::uint64_t unshown_ = 0;                 ///< without looping, left out before the end
     LogLimiter lateness_{10s};
     VideoRounds left_;
     std::unique_ptr<VideoRounds> right_;  ///< null: side by side

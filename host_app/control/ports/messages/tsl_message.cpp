@@ -68,6 +68,12 @@ std::size_t v4_extra_bytes(std::span<const std::byte> bytes) {
     return v3_bytes + extra <= bytes.size() ? extra : 0;
 }
 
+/// Bytes that senders put after the last message: NUL, blanks and ends of lines.
+bool is_padding(std::byte byte) {
+    constexpr std::string_view padding("\0 \r\n", 4);
+    return padding.find(static_cast<char>(byte)) != std::string_view::npos;
+}
+
 /// Decodes the first message and removes it from the bytes. Empty if there is none.
 std::optional<std::vector<TslDisplay>> take_message(std::span<const std::byte>& bytes) {
     const bool may_be_v3 = bytes.size() >= v3_bytes && byte_at(bytes, 0) >= v3_first_address;
@@ -108,9 +114,7 @@ std::optional<std::vector<TslDisplay>> decode_tsl(std::span<const std::byte> dat
     std::vector<TslDisplay> all;
     bool is_any = false;
     while (!datagram.empty()) {
-        const bool is_padding = std::all_of(datagram.begin(), datagram.end(),
-                                            [](std::byte byte) { return byte == std::byte{0}; });
-        if (is_any && is_padding) break;
+        if (is_any && std::all_of(datagram.begin(), datagram.end(), is_padding)) break;
         const auto displays = take_message(datagram);
         if (!displays) return std::nullopt;
         is_any = true;

@@ -210,6 +210,27 @@ TEST_F(EditListTest, PlayListIsATimelineOverAFilm) {
     EXPECT_EQ(whole["markers"][0]["marked_range"]["duration"]["value"], 20);
 }
 
+TEST_F(EditListTest, FramesOfFilmsMayCountFromZero) {
+    take_from(36'000);
+    EditList edit = list({film("a.mkv", 25, 90, "10:00:00:05")});
+    count_films_from_zero(edit);
+    const json timeline = otio(edit);
+    const json& tracks = timeline["tracks"]["children"];
+    const json& event = tracks[1]["children"][0];
+    EXPECT_EQ(event["source_range"]["start_time"]["value"], 45);
+    EXPECT_EQ(event["source_range"]["duration"]["value"], 25);
+    const json& whole = tracks[0]["children"][0];
+    EXPECT_EQ(whole["source_range"]["start_time"]["value"], 0);
+    EXPECT_EQ(whole["markers"][0]["marked_range"]["start_time"]["value"], 5);
+    const json& reference = event["media_references"]["DEFAULT_MEDIA"];
+    EXPECT_EQ(reference["available_range"]["start_time"]["value"], 0);
+    EXPECT_EQ(timeline["global_start_time"]["value"], 25 * 3600) << "of the edit";
+    EditList offline = list({});
+    const std::int64_t in = offline.events.at(0).in;
+    count_films_from_zero(offline);
+    EXPECT_EQ(offline.events.at(0).in, in) << "without a film, time code is all there is";
+}
+
 TEST_F(EditListTest, EdlHasReelsTimeCodeAndSpeed) {
     take_from(36'000);
     EXPECT_EQ(edl(list({film("match day.mkv.mkv", 25, 100, "10:00:00:00")})),

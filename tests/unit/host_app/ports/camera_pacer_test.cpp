@@ -1,5 +1,6 @@
 #include "host_app/control/ports/camera_pacer.h"
 
+#include <mutex>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -9,71 +10,130 @@
 namespace vantage {
 namespace {
 
+/// A rate whose ticks are not late within any test.
+constexpr double slow_hz = 0.001;
+
 class CameraPacerTest : public testing::Test {
   protected:
     void send(const CameraTick& tick) {
         const std::lock_guard lock(mutex_);
         sent_.push_back(tick);
+        threads_.push_back(std::this_thread::get_id());
+    }
+    auto sender() {
+        return [this](const CameraTick& tick) { send(tick); };
     }
     std::vector<CameraTick> sent() const {
         const std::lock_guard lock(mutex_);
         return sent_;
     }
-    static ProgrammePicture picture(std::uint64_t tick) {
-        ProgrammePicture picture;
-        picture.tick = tick;
-        picture.picture = ColourImage(72, 128);
-        picture.camera.focus_m = static_cast<double>(tick) + 1;
-        return picture;
+    std::vector<std::thread::id> threads() const {
+        const std::lock_guard lock(mutex_);
+        return threads_;
+    }
+    CameraTick tick(std::uint64_t number, double rate_hz) const {
+        CameraTick tick;
+        tick.tick = number;
+        tick.due = start_ + from_s(static_cast<double>(number) / rate_hz);
+        tick.camera.focus_m = static_cast<double>(number) + 1;
+        return tick;
     }
 
   private:
+    const MonotonicTime start_ = MonotonicClock::now();
     mutable std::mutex mutex_;
     std::vector<CameraTick> sent_;
+    std::vector<std::thread::id> threads_;
 };
 
 TEST_F(CameraPacerTest, SendsEveryTickOnce) {
-    constexpr double slow_hz = 0.01;
-    CameraPacer pacer(slow_hz, [this](const CameraTick& tick) { send(tick); });
-    pacer.take(picture(5));
-    ASSERT_EQ(sent().size(), 1u) << "at once";
-    EXPECT_EQ(sent()[0].camera.focus_m, 6);
-    EXPECT_EQ(sent()[0].width_px, 128);
-    for (const std::uint64_t tick : {6, 6, 7, 8}) pacer.take(picture(tick));
+    CameraPacer pacer(slow_hz, sender());
+    pacer.take(tick(0, slow_hz));
+    ASSERT_TRUE(eventually([&] { return !sent().empty(); })) << "the first tick waits for none";
+    for (const std::uint64_t number : {1, 1, 2, 3}) pacer.take(tick(number, slow_hz));
     ASSERT_TRUE(eventually([&] { return sent().size() >= 4; }));
-    pacer.take(picture(7));
+    pacer.take(tick(2, slow_hz));
     pacer.stop();
-    pacer.take(picture(9));
+    pacer.take(tick(9, slow_hz));
     const std::vector<CameraTick> all = sent();
     ASSERT_EQ(all.size(), 4u);
-    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].tick, 5 + i);
-    EXPECT_EQ(all.back().camera.focus_m, 9);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(all[i].tick, i);
+        EXPECT_EQ(all[i].due, tick(i, slow_hz).due);
+    }
+    EXPECT_EQ(all.back().camera.focus_m, 4);
+}
+
+TEST_F(CameraPacerTest, SendsTicksThatWereHandedOverTogetherOneByOne) {
+    CameraPacer pacer(slow_hz, sender());
+    pacer.take(tick(3, slow_hz));
+    pacer.stop();
+    const std::vector<CameraTick> all = sent();
+    ASSERT_EQ(all.size(), 4u);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(all[i].tick, i);
+        EXPECT_EQ(all[i].due, tick(i, slow_hz).due);
+        EXPECT_EQ(all[i].camera.focus_m, 4) << "the newest camera";
+    }
+}
+
+TEST_F(CameraPacerTest, NeverSendsOnTheThreadOfTheProgramme) {
+    constexpr double fast_hz = 1000;
+    CameraPacer pacer(fast_hz, sender());
+    for (std::uint64_t number = 0; number < 100; ++number) pacer.take(tick(number, fast_hz));
+    ASSERT_TRUE(eventually([&] { return sent().size() >= 105; })) << "repeated ones too";
+    pacer.take(tick(1000, fast_hz));
+    pacer.stop();
+    const std::vector<std::thread::id> all = threads();
+    for (const std::thread::id id : all) {
+        EXPECT_EQ(id, all.front());
+        EXPECT_NE(id, std::this_thread::get_id());
+    }
+}
+
+/// A sender that stands must not hold the programme up.
+TEST_F(CameraPacerTest, TakesTicksWhileOneIsBeingSent) {
+    std::mutex standing;
+    std::unique_lock hold(standing);
+    CameraPacer pacer(slow_hz, [&](const CameraTick& tick) {
+        const std::lock_guard wait(standing);
+        send(tick);
+    });
+    for (std::uint64_t number = 0; number < 5; ++number) pacer.take(tick(number, slow_hz));
+    EXPECT_TRUE(sent().empty());
+    hold.unlock();
+    ASSERT_TRUE(eventually([&] { return sent().size() >= 5; }));
+    EXPECT_EQ(sent().back().tick, 4u);
 }
 
 TEST_F(CameraPacerTest, RepeatsTheCameraOfALateTick) {
-    CameraPacer pacer(100, [this](const CameraTick& tick) { send(tick); });
-    pacer.take(picture(0));
-    pacer.take(picture(1));
-    ASSERT_TRUE(eventually([&] { return sent().size() >= 5; })) << "nobody hands over tick 2";
-    pacer.take(picture(2));
+    constexpr double rate_hz = 100;
+    CameraPacer pacer(rate_hz, sender());
+    pacer.take(tick(0, rate_hz));
+    ASSERT_TRUE(eventually([&] { return sent().size() >= 5; })) << "nobody hands over tick 1";
+    pacer.take(tick(1, rate_hz));
     pacer.stop();
     const std::vector<CameraTick> all = sent();
-    for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].tick, i) << "no tick twice";
-    EXPECT_EQ(all[4].camera.focus_m, 2) << "the camera of tick 1";
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        EXPECT_EQ(all[i].tick, i) << "no tick twice";
+        EXPECT_EQ(all[i].due, tick(i, rate_hz).due);
+    }
+    EXPECT_EQ(all[4].camera.focus_m, 1) << "the camera of tick 0";
 }
 
 TEST_F(CameraPacerTest, EndsAfterAProgrammeThatHandsOverNothing) {
-    CameraPacer pacer(200, [this](const CameraTick& tick) { send(tick); });
-    pacer.take(picture(0));
-    pacer.take(picture(1));
-    std::size_t before = 0;
-    const auto stands = [&] {
-        const std::size_t last = std::exchange(before, sent().size());
-        return last == before && before > 2;
-    };
-    ASSERT_TRUE(eventually(stands, longest_wait, std::chrono::milliseconds(400)));
-    EXPECT_GT(before, 100u);
-    EXPECT_LT(before, 250u);
+    constexpr double rate_hz = 200;
+    constexpr std::size_t a_second = 201;
+    CameraTick first = tick(0, rate_hz);
+    first.due -= std::chrono::minutes(1);
+    CameraPacer pacer(rate_hz, sender());
+    pacer.take(first);
+    ASSERT_TRUE(eventually([&] { return sent().size() >= a_second; })) << "a second at once";
+    CameraTick last = tick(a_second, rate_hz);
+    pacer.take(last);
+    pacer.stop();
+    ASSERT_GT(sent().size(), a_second);
+    EXPECT_EQ(sent()[a_second].camera.focus_m, last.camera.focus_m) << "not repeated";
 }
 
 }  // namespace

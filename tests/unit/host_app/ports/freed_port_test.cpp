@@ -114,6 +114,7 @@ TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     const auto sink = make_freed_sink(fmt::format("freed://127.0.0.1:{}?camera=3", number_), 25);
     ProgrammePicture picture;
     picture.camera = some_camera();
+    picture.due = MonotonicClock::now() + std::chrono::hours(1);  // no tick after it is late
     sink->take(picture);
     serve(*port, 1);
     ASSERT_EQ(port->stats().obeyed, 1u) << port->stats().last_refusal;
@@ -123,6 +124,7 @@ TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     EXPECT_NEAR(heard->focus_m, 4.25, 1e-3);
     const auto other = make_freed_sink(fmt::format("freed://127.0.0.1:{}", number_), 25);
     other->take(picture);
+    other->finish();
     peer_.send("damaged", number_);
     serve(*port, 3);
     EXPECT_EQ(port->stats().unknown, 1u) << "camera 1";

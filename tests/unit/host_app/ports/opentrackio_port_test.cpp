@@ -270,6 +270,7 @@ TEST_F(BenchTest, OpentrackioOutputFliesOpentrackioControl) {
         ProgrammePicture picture;
         picture.camera = tilted_camera();
         picture.picture = ColourImage(72, 128);
+        picture.due = MonotonicClock::now() + std::chrono::hours(1);  // no tick after it is late
         sink->take(picture);
         serve(*port, 1);
         ASSERT_EQ(port->stats().obeyed, 1u) << port->stats().last_refusal;
@@ -280,6 +281,7 @@ TEST_F(BenchTest, OpentrackioOutputFliesOpentrackioControl) {
         const auto other =
             make_opentrackio_sink(fmt::format("opentrackio://127.0.0.1:{}", number_), 50, 25);
         other->take(picture);
+        other->finish();
         peer_.send("damaged", number_);
         serve(*port, 3);
         EXPECT_EQ(port->stats().unknown, 1u) << "source 1";

@@ -49,7 +49,12 @@ TEST(TslMessage, OfVersionThreeHasAnAddressAndFourTallies) {
     const auto two = decoded(v3(5, 1) + v3(6, 2));
     ASSERT_TRUE(two);
     EXPECT_EQ(two->size(), 2u);
-    EXPECT_TRUE(decoded(v3(5, 1) + std::string(4, '\0'))) << "a datagram may be padded";
+    for (const std::string& padding : {std::string(4, '\0'), std::string("\r\n")}) {
+        EXPECT_TRUE(decoded(v3(5, 1) + padding)) << "a datagram may be padded";
+        EXPECT_TRUE(decoded(v5(display(1, 1)) + padding));
+        EXPECT_FALSE(decoded(padding)) << "but has a message";
+    }
+    EXPECT_FALSE(decoded(v3(5, 1) + "\r\n\1"));
     std::string v4 = v3(5, 1);
     unsigned sum = 0;
     for (const char byte : v4) sum += static_cast<unsigned char>(byte);
