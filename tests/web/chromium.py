@@ -19,12 +19,14 @@ def find_chromium():
 
 
 class Page:
-    """A tab. Events are kept until `take_events`."""
+    """A tab, which keeps its events. End it with `close`: an open tab goes on asking its host."""
 
-    def __init__(self, browser, session):
-        self._browser, self._session = browser, session
+    def __init__(self, browser, target, session):
+        self._browser, self._target, self._session = browser, target, session
+        self._is_open = True
         for domain in ("Page", "Runtime", "Log", "Accessibility", "DOM"):
             self.call(domain + ".enable")
+        self.call("Page.setLifecycleEventsEnabled", enabled=True)
 
     def call(self, method, **parameters):
         return self._browser.call(method, parameters, self._session)
@@ -37,7 +39,25 @@ class Page:
             deviceScaleFactor=1,
             mobile=is_phone,
         )
-        self.call("Page.navigate", url=url)
+        answer = self.call("Page.navigate", url=url)
+        if "errorText" in answer:
+            raise AssertionError(f"{url}: {answer['errorText']}")
+        # Until this event an expression may still be evaluated in the page that was open before.
+        self._browser.wait_for_event(
+            lambda event: event["method"] == "Page.lifecycleEvent"
+            and event["params"]["name"] == "load"
+            and event["params"]["loaderId"] == answer["loaderId"]
+        )
+
+    def close(self):
+        if not self._is_open:
+            return
+        self._is_open = False
+        self._browser.call("Target.closeTarget", {"targetId": self._target})
+        self._browser.wait_for_event(
+            lambda event: event["method"] == "Target.detachedFromTarget"
+            and event["params"]["sessionId"] == self._session
+        )
 
     def value(self, expression):
         """The value of a JavaScript expression; promises are awaited."""
@@ -54,6 +74,10 @@ class Page:
             if time.monotonic() > end:
                 raise AssertionError(f"not within {LONGEST_WAIT_S} s: {expression}")
             time.sleep(0.05)
+
+    def wait_for_frame(self):
+        """Waits until what the page has now is drawn. Chromium drops keys before its first frame."""
+        self.value("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))")
 
     def press(self, key):
         codes = {"Tab": (9, ""), "Enter": (13, "\r"), "Space": (32, " ")}
@@ -87,10 +111,13 @@ class Page:
         return [
             event["params"]
             for event in self._browser.events
-            if event["method"] == "Runtime.exceptionThrown"
-            or event["method"] == "Log.entryAdded"
-            and event["params"]["entry"]["level"] == "error"
-            and event["params"]["entry"]["source"] != "network"
+            if event.get("sessionId") == self._session
+            and (
+                event["method"] == "Runtime.exceptionThrown"
+                or event["method"] == "Log.entryAdded"
+                and event["params"]["entry"]["level"] == "error"
+                and event["params"]["entry"]["source"] != "network"
+            )
         ]
 
 
@@ -149,6 +176,18 @@ class Chromium:
             if "method" in answer:
                 self.events.append(answer)
 
+    def wait_for_event(self, is_awaited):
+        """Waits for an event, which may have come already since the last `new_page`."""
+        seen = 0
+        while True:
+            for event in self.events[seen:]:
+                if is_awaited(event):
+                    return
+            seen = len(self.events)
+            message = self._next()
+            if "method" in message:
+                self.events.append(message)
+
     def _next(self):
         while b"\0" not in self._rest:
             if not select.select([self._in], [], [], LONGEST_WAIT_S)[0]:
@@ -164,7 +203,7 @@ class Chromium:
         self.events = []
         target = self.call("Target.createTarget", {"url": "about:blank"})["targetId"]
         attached = self.call("Target.attachToTarget", {"targetId": target, "flatten": True})
-        return Page(self, attached["sessionId"])
+        return Page(self, target, attached["sessionId"])
 
     def close(self):
         for pipe in (self._out, self._in):

@@ -4,14 +4,17 @@ page_test.py checks it against the pictures and layouts in golden/; `VANTAGE_GOL
 writes them anew. Look at the pictures before you commit them.
 """
 
+import collections
 import io
 import json
 import os
 import shutil
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
+import time
 import unittest
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
@@ -90,13 +93,16 @@ def jpeg(colour):
 
 
 class FakeHost(ThreadingHTTPServer):
-    """A host whose state stands still. `commands` are those that it was given; it refuses them with
-    `refusal`."""
+    """A host whose state stands still; without a state it asks for its PIN. `commands` are those that it
+    was given; it refuses them with `refusal`. An answer to a path in `broken` breaks off in its middle.
+    `asked[path]` is set when a path is asked for, and `held[path]` holds its answer until it is set."""
 
     refusal = ""
 
     def __init__(self, state):
         self.state, self.commands = state, []
+        self.broken, self.held = set(), {}
+        self.asked = collections.defaultdict(threading.Event)
         self.got_command = threading.Event()
         super().__init__(("127.0.0.1", 0), Handler)
         threading.Thread(target=self.serve_forever, daemon=True).start()
@@ -109,31 +115,41 @@ class FakeHost(ThreadingHTTPServer):
         self.shutdown()
         self.server_close()
 
+    def handle_error(self, request, client_address):
+        # A page that is closed does not wait for its answers.
+        if not isinstance(sys.exc_info()[1], ConnectionError):
+            super().handle_error(request, client_address)
+
 
 class Handler(BaseHTTPRequestHandler):
     protocol_version = "HTTP/1.1"
     pictures = {"/programme.jpg": jpeg((40, 70, 110)), "/rig.jpg": jpeg((60, 60, 60))}
 
     def answer(self, status, kind, body):
+        if self.path in self.server.held:
+            self.server.held[self.path].wait(LONGEST_WAIT_S)
         self.send_response(status)
         self.send_header("Content-Type", kind)
         self.send_header("Content-Length", str(len(body)))
         self.send_header("X-Sharpness", "41.5")
         self.end_headers()
+        if self.path in self.server.broken:
+            self.close_connection = True
+            body = body[: len(body) // 2]
         self.wfile.write(body)
 
     def do_GET(self):
+        self.server.asked[self.path].set()
         path = urlparse(self.path).path
         if path == "/":
             self.answer(200, "text/html; charset=utf-8", PAGE.read_bytes())
+        elif self.server.state is None:
+            self.answer(401, "text/plain", b"the PIN is needed\n")
         elif path in self.pictures:
             self.answer(200, "image/jpeg", self.pictures[path])
         elif path in ("/state", "/board"):
-            if self.server.state is None:
-                self.answer(401, "text/plain", b"the PIN is needed\n")
-            else:
-                value = self.server.state if path == "/state" else BOARD
-                self.answer(200, "application/json", json.dumps(value).encode())
+            value = self.server.state if path == "/state" else BOARD
+            self.answer(200, "application/json", json.dumps(value).encode())
         else:
             self.answer(404, "text/plain", b"there is no such page\n")
 
@@ -193,6 +209,20 @@ def coarse(png):
     return image.resize((image.width // 16, image.height // 16), Image.Resampling.BOX)
 
 
+def wait_until_it_listens(process, port):
+    end = time.monotonic() + LONGEST_WAIT_S
+    while True:
+        try:
+            socket.create_connection(("127.0.0.1", port)).close()
+            return
+        except ConnectionRefusedError:
+            if process.poll() is not None:
+                raise AssertionError(f"the show has ended with {process.returncode}") from None
+            if time.monotonic() > end:
+                raise AssertionError(f"the show does not listen within {LONGEST_WAIT_S} s") from None
+        time.sleep(0.05)
+
+
 class PageTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -205,13 +235,20 @@ class PageTest(unittest.TestCase):
     def opened(self, size="tablet", state=None):
         self.host = FakeHost(state)
         self.addCleanup(self.host.close)
-        page = self.browser.new_page()
+        page = self.new_page()
         page.open(self.host.url, *SIZES[size], size == "phone")
-        # Without a state the host asks for its PIN.
-        page.wait_for(
-            "!!document.getElementById('picture') && (document.getElementById('picture').naturalWidth > 0"
-            " || !document.getElementById('login').hidden)"
-        )
+        if state is None:
+            page.wait_for("!document.getElementById('login').hidden")
+        else:
+            # The state and the picture come in either order.
+            page.wait_for("document.getElementById('level').textContent !== 'connecting'")
+            page.wait_for("document.getElementById('picture').naturalWidth > 0")
+        page.wait_for_frame()
+        return page
+
+    def new_page(self):
+        page = self.browser.new_page()
+        self.addCleanup(page.close)
         return page
 
     def open_rig(self, page):
@@ -223,7 +260,7 @@ class PageTest(unittest.TestCase):
         page.value("document.activeElement.blur()")
 
     def views(self):
-        """Every view at every size: its name, its width, the page and a way to close it."""
+        """Every view at every size: its name, its width and the page, which is closed after its turn."""
         for size, (width, _) in SIZES.items():
             for view in ("programme", "rig", "login"):
                 page = self.opened(size, None if view == "login" else STATE)
@@ -232,6 +269,7 @@ class PageTest(unittest.TestCase):
                 if view == "login":
                     page.value("document.activeElement.blur()")
                 yield f"{view}_{size}", width, page
+                page.close()
 
     def test_looks_as_it_did(self):
         for name, width, page in self.views():
@@ -375,6 +413,53 @@ class PageTest(unittest.TestCase):
         self.assertEqual(page.value("document.getElementById('why').textContent"), evil)
         self.assertEqual(page.faults(), [])
 
+    def test_goes_on_after_connections_that_break(self):
+        of_the_programme = {"/state", "/programme.jpg"}
+        of_a_rig = {"/state", "/rig.jpg?rig=rig7", "/board?rig=rig7"}
+        for opens_rig in (False, True):
+            page = self.opened("tablet", STATE)
+            if opens_rig:
+                self.open_rig(page)
+            self.host.broken = of_a_rig if opens_rig else of_the_programme
+            # The page asks for a path again only after it has the answer before.
+            for path in self.host.broken:
+                for _ in range(3):
+                    self.host.asked[path].clear()
+                    self.assertTrue(self.host.asked[path].wait(LONGEST_WAIT_S), path)
+            self.assertEqual(page.faults(), [])
+            page.close()
+
+    def test_never_shows_the_picture_of_another_rig(self):
+        page = self.opened("tablet", STATE)
+        late, wanted = "/rig.jpg?rig=rig7", "/rig.jpg?rig=rig8"
+        self.host.held = {late: threading.Event(), wanted: threading.Event()}
+        for held in self.host.held.values():
+            self.addCleanup(held.set)
+        page.value("document.querySelector('[data-rig=rig7]').click()")
+        self.assertTrue(self.host.asked[late].wait(LONGEST_WAIT_S))
+        page.value("document.getElementById('back').click()")
+        page.value("document.querySelector('[data-rig=rig8]').click()")
+        self.host.held[late].set()
+        # The page asks for the next picture when it has done with the last one.
+        self.assertTrue(self.host.asked[wanted].wait(LONGEST_WAIT_S))
+        self.assertFalse(page.value("document.getElementById('rigpicture').hasAttribute('src')"))
+        self.host.held[wanted].set()
+        page.wait_for("document.getElementById('rigpicture').naturalWidth > 0")
+
+    def test_marks_lie_on_the_picture_whenever_it_is_loaded(self):
+        page = self.opened("tablet", STATE)
+        page.value("document.querySelector('[data-rig=rig7]').click()")
+        page.value(
+            "window.shapes = new Set(); window.marks = document.getElementById('marks');"
+            "new MutationObserver(() => shapes.add(marks.getAttribute('viewBox'))).observe(marks, { childList: true })"
+        )
+        page.value("document.getElementById('board').click()")
+        page.wait_for("document.querySelectorAll('#marks circle').length === 54")
+        for _ in range(5):
+            picture = page.value("document.getElementById('rigpicture').src")
+            page.wait_for(f"document.getElementById('rigpicture').src !== {json.dumps(picture)}")
+        self.assertEqual(page.value("[...shapes]"), ["0 0 640 400"])
+
     @unittest.skipUnless(PROGRAM, "no program is given")
     def test_a_show_obeys_the_page(self):
         with socket.create_server(("127.0.0.1", 0)) as free:
@@ -389,18 +474,13 @@ class PageTest(unittest.TestCase):
             )
             self.addCleanup(show.wait)
             self.addCleanup(show.terminate)
-            page = self.browser.new_page()
-            is_open = "!!document.getElementById('picture') && document.getElementById('picture').naturalWidth > 0"
-            while True:
-                page.open(f"http://127.0.0.1:{port}/", *SIZES["tablet"], False)
-                try:
-                    socket.create_connection(("127.0.0.1", port)).close()
-                    break
-                except ConnectionRefusedError:
-                    self.assertIsNone(show.poll(), "the show has ended")
+            wait_until_it_listens(show, port)
+            page = self.new_page()
             page.open(f"http://127.0.0.1:{port}/", *SIZES["tablet"], False)
-            page.wait_for(is_open)
-            page.wait_for("document.getElementById('level').textContent !== 'connecting'")
+            # The page serves rigs that are waited for before there is a programme.
+            page.wait_for("document.querySelector('.rig') !== null")
+            page.wait_for("document.getElementById('picture').naturalWidth > 0")
+            page.wait_for_frame()
             page.value("document.querySelectorAll('#transport button')[1].focus()")
             page.press("Enter")
             page.wait_for("document.querySelectorAll('#transport button')[1].getAttribute('aria-pressed') === 'true'")
