@@ -216,7 +216,7 @@ bool BackgroundBaker::step(std::span<RigHistory* const> rigs, const VirtualView&
         // The thread has instants to prepare while the GPU draws.
         if (!waits && !merged_.reached()) return false;
         divide();
-        return false;
+        return waits;
     }
     if (!drawing_) begin(rigs, target, now_s);
     return drawing_ && draw(rigs);

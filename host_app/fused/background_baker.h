@@ -74,7 +74,7 @@ class BackgroundBaker {
     /// Rough models still change while the background is being learnt: their probes are drawn until
     /// there are newer ones.
     bool is_current(const Probe& probe) const {
-        return probe.made && (probe.is_rough || probe.made_s > changed_s_);
+        return probe.made && (probe.is_rough || probe.made_s >= changed_s_);
     }
     /// Begins to draw the probe that is due first, if any.
     void begin(std::span<RigHistory* const> rigs, const VirtualView& target, double now_s);
