@@ -72,7 +72,9 @@ std::string BoardWatch::ask(const std::string& rig, const ColourImage& picture) 
 
 void BoardWatch::run() {
     name_this_thread("board watch");
-    make_this_thread_idle();
+    // On idle processors only, a search would never end beside a software renderer.
+    constexpr int niceness = 10;
+    make_this_thread_nice(niceness);
     std::unique_lock lock(mutex_);
     for (;;) {
         changed_.wait(lock, [this] { return request_ || is_ending_; });

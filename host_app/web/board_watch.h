@@ -11,8 +11,8 @@
 
 namespace vantage {
 
-/// Looks for the calibration board in pictures of rigs, on a thread of its own that runs on idle
-/// processors only. It looks at a picture only when asked, and at one at a time. Thread-safe.
+/// Looks for the calibration board in pictures of rigs, on a thread of its own of low priority. It
+/// looks at a picture only when asked, and at one at a time. Thread-safe.
 class BoardWatch {
   public:
     explicit BoardWatch(CalibrationBoards boards);
