@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <fmt/format.h>
@@ -20,18 +22,24 @@
 namespace vantage {
 namespace {
 
-/// Returns a TCP port of the loopback interface that is free now.
-int free_port() {
-    const UniqueFd socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* plain = reinterpret_cast<sockaddr*>(&address);
-    if (!socket || ::bind(socket.get(), plain, size) != 0 ||
-        ::getsockname(socket.get(), plain, &size) != 0)
-        fail("cannot find a free port for a rig: {}", std::strerror(errno));
-    return ntohs(address.sin_port);
+/// Returns a TCP port of the loopback interface that is free now and not one of `taken`, on which
+/// nobody listens yet.
+int free_port(const std::set<int>& taken) {
+    std::vector<UniqueFd> held;
+    for (;;) {
+        UniqueFd socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        auto* plain = reinterpret_cast<sockaddr*>(&address);
+        if (!socket || ::bind(socket.get(), plain, size) != 0 ||
+            ::getsockname(socket.get(), plain, &size) != 0)
+            fail("cannot find a free port for a rig: {}", std::strerror(errno));
+        const int port = ntohs(address.sin_port);
+        if (!taken.contains(port)) return port;
+        held.push_back(std::move(socket));
+    }
 }
 
 }  // namespace
@@ -89,7 +97,9 @@ DemoStage::DemoStage(std::filesystem::path folder, std::filesystem::path kept)
 void DemoStage::add_rig(const std::string& name, toml::table parts) {
     const CurveKeys keys = generate_curve_keys();
     write_key_file(folder_ / (name + ".key"), keys);
-    const std::string endpoint = fmt::format("tcp://127.0.0.1:{}", free_port());
+    const int port = free_port(ports_);
+    ports_.insert(port);
+    const std::string endpoint = fmt::format("tcp://127.0.0.1:{}", port);
     parts.insert("version", 1);
     parts.insert("name", name);
     // The network is the loopback interface, so the JPEG quality can be high.

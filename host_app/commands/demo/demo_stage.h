@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -75,6 +76,7 @@ class DemoStage {
     std::filesystem::path folder_, kept_;
     std::vector<std::string> names_;
     toml::array rigs_;
+    std::set<int> ports_;  ///< of the rigs
 };
 
 }  // namespace vantage

@@ -1,6 +1,7 @@
 #include <csignal>
 #include <filesystem>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -59,6 +60,21 @@ TEST(DemoSize, IsTheLargestThatLeavesTheHostHalfOfTheGpu) {
     EXPECT_LT(slowest.rate_hz, 25);
     EXPECT_FALSE(slowest.is_software);
     EXPECT_EQ(tried, (std::vector<int>{960, 640})) << "there is nothing to choose after them";
+}
+
+/// The system offers some free port twice among so many.
+TEST(DemoStage, GivesEveryRigAPortOfItsOwn) {
+    const TemporaryFolder folder;
+    DemoStage stage(folder.path(), {});
+    constexpr int rigs = 300;
+    std::set<std::string> binds;
+    for (int i = 0; i < rigs; ++i) {
+        const std::string name = "rig" + std::to_string(i);
+        stage.add_rig(name, {});
+        const toml::table written = toml::parse_file(stage.rig_file(name).string());
+        binds.insert(written["stream"]["bind"].value_or(std::string()));
+    }
+    EXPECT_EQ(binds.size(), std::size_t{rigs});
 }
 
 TEST(DemoSize, IsSlowerOnASlowSoftwareRenderer) {
