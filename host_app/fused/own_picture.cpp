@@ -44,7 +44,8 @@ std::optional<NearRig> near_rig(std::span<const InstantRig* const> rigs, const V
     }
     if (nearest_m >= next_m || !rigs[near.rig]->picture) return std::nullopt;
     const InstantRig& rig = *rigs[near.rig];
-    // Whole where the next rig is three times as far.
+    // The weight is 1 where the next rig is at least three times as far away, and 0 where it is as
+    // near.
     const double alone = std::clamp(1.5 - 1.5 * nearest_m / next_m, 0.0, 1.0);
     near.weight = static_cast<float>(alone) * rig.presence *
                   nearness(rig.camera(), rig.surface->median_depth_m(), view);

@@ -157,17 +157,13 @@ void StagedPreparer::look_at_sets() {
         const bool is_learnt = rig->learnt_instants() > 0;
         const BackgroundModel::Look look =
             is_learnt ? sets_.look_at(*rig) : BackgroundModel::Look();
-        const bool has_changed = look.changed_share > changed_share_to_patch;
         if (look.changed_share > changed_share_to_renew) {
             baker_.bake_anew();
             make_model_due(*rig);
         }
-        if (has_changed) {
+        if (look.changed_share > changed_share_to_patch) {
             baker_.note_change(now_s_);
-            if (level_.is_refined)
-                make_model_due(*rig);
-            else
-                make_model(*rig, prepare_levels().back());
+            if (!level_.is_refined) make_model(*rig, prepare_levels().back());
         }
         states_.push_back({.rig = rig->camera().name,
                            .known = look.known_share,

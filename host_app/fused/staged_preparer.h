@@ -60,7 +60,7 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     void begin_with_learnt(RigHistory& rig);
     void look_at_sets();
     /// Makes a rough model of one rig that is learnt well enough for its background to be baked and
-    /// has no model of that yet.
+    /// has no model of that yet, or one of so few instants that it pays to make another.
     void make_a_first_model();
     /// A background model that is refined in steps between instants.
     struct Refining {

@@ -76,6 +76,15 @@ bool show_past(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, flo
 }
 #endif
 
+// Shows what the first rig sees that sees past a surface at depth z (see show_past); only with BAKED.
+void show_what_rigs_see(vec2 pixel, float z, float share) {
+#if BAKED
+    bool is_shown = false;
+#define SHOW_FROM(i) is_shown = is_shown || show_past(i, colour[i], source_depth[i], pixel, z, share);
+    FOR_LAYERS(SHOW_FROM)
+#endif
+}
+
 void show_background(ivec2 at) {
     float own = texelFetch(fused_depth, at, 0).r, z = abs(own);
     fused = vec4(0.0);
@@ -85,31 +94,19 @@ void show_background(ivec2 at) {
     fused = texelFetch(baked_colour, at, 0);
     fused_z = own;
 #endif
-#if BAKED
-    if (z == 0.0) {  // no probe reaches here
-        bool is_shown = false;
-#define SHOW_FROM(i) is_shown = is_shown || show_past(i, colour[i], source_depth[i], vec2(at), typical * near_m, 0.0);
-        FOR_LAYERS(SHOW_FROM)
+    if (z == 0.0) {
+        show_what_rigs_see(vec2(at), typical * near_m, 0.0);  // no probe reaches here
         return;
     }
-#else
-    if (z == 0.0) return;
-#endif
     vec3 sum = vec3(0.0);
     vec4 shares = vec4(0.0);
     float weight = 0.0, confidence = 0.0;
 #define ADD(i) add(i, colour[i], source_depth[i], vec2(at), z, sum, weight, shares, confidence);
     FOR_LAYERS(ADD)
-#if BAKED
     if (weight == 0.0) {
-        bool is_found = false;
-#define SHOW_PAST(i) is_found = is_found || show_past(i, colour[i], source_depth[i], vec2(at), z, past);
-        FOR_LAYERS(SHOW_PAST)
+        show_what_rigs_see(vec2(at), z, past);
         return;
     }
-#else
-    if (weight == 0.0) return;
-#endif
     fused = vec4(sum / weight, alpha_of(own > 0.0, confidence));
     fused_z = z;
     tell_origins(shares / weight);

@@ -4,6 +4,7 @@
 #ifndef SHARES
 #define SHARES 0  // 1: the pictures are the rigs' shares in the colours
 #endif
+#include "detail_level.glsl"
 #include "sharp_sample.glsl"
 
 uniform sampler2D picture;           // the synthesised one, or its shares
@@ -56,7 +57,7 @@ void main() {
 #if SHARES
     shown = mix(shown, own_share, weight);
 #else
-    float lod = log2(max(length(pixel_from_target[0].xyz) * z / q.z, 1.0));
+    float lod = detail_level(pixel_from_target, z, q.z);
     shown = mix(shown, vec4(sharp(own, (place + 0.5) / size, lod), 1.0), weight);
 #endif
 }

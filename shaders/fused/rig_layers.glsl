@@ -6,6 +6,8 @@
 #define ORIGINS 0  // 1: the shader writes the layers' shares in each colour
 #endif
 
+#include "detail_level.glsl"
+
 uniform sampler2D layer_depth[LAYERS];   // of the virtual view: 1 - near / z, 1 = nothing
 uniform sampler2D colour[LAYERS];        // the rigs' own
 uniform sampler2D source_depth[LAYERS];  // the rigs' own, metres; 0 = unknown, negative = inpainted
@@ -44,11 +46,6 @@ float matted_layer_z(sampler2D layer, ivec2 at) {
 // Angle-like measure between the two lines of sight to a point: 1 - cosine.
 float apart(vec3 point, vec3 rig_centre) {
     return 1.0 - dot(normalize(point), normalize(point - rig_centre));
-}
-
-// Level of detail at which one source pixel is about one pixel of the virtual view.
-float detail_level(mat4 source_from_target, float z, float source_z) {
-    return log2(max(length(source_from_target[0].xyz) * z / source_z, 1.0));
 }
 
 // The alpha of a surface: full if a rig sees it now, less if it is only remembered or inpainted.

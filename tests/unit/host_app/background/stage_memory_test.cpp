@@ -187,7 +187,7 @@ TEST_F(StageMemoryTest, APerformerWhoStandsStillForHalfAMinuteIsNotLearnt) {
     ASSERT_GT(own, 0.7);
     EXPECT_GT(share_alike(depth_m(), rig_.seen().depth_m, known_behind), 0.95 * own);
     EXPECT_GT(share_of(plate().known, known_behind), 0.98);
-    // The model is of five instants, and nothing refines it here.
+    // The model is of ten instants, and nothing refines it here.
     EXPECT_GT(share_alike(plate().depth_m, set_m, known_behind), 0.98);
 }
 

@@ -26,20 +26,12 @@ class BakedBackgroundTest : public testing::Test {
     std::vector<DepthView> film(int instant) {
         std::vector<DepthView> views;
         for (const double azimuth_deg : {-20.0, 0.0, 20.0}) {
-            const StageCamera camera = camera_at(azimuth_deg, baked_width_px, baked_height_px);
-            StageRendering seen =
-                stage_.render(camera, std::chrono::milliseconds(1000 + 250 * instant));
-            if (is_rebuilt_) {
-                cv::bitwise_not(seen.colour, seen.colour);
-                seen.depth_m *= 1.25f;
-            }
-            views.push_back({.name = std::to_string(azimuth_deg),
-                             .colour = seen.colour,
-                             .K = camera.K,
-                             .world_from_camera = camera.world_from_camera,
-                             .depth_m = seen.depth_m,
-                             .baseline_m = VirtualRigPlacement{}.baseline_m,
-                             .doffs_px = 0});
+            DepthView& view = views.emplace_back(
+                exact_view_at(stage_, azimuth_deg, baked_width_px, baked_height_px,
+                              std::chrono::milliseconds(1000 + 250 * instant)));
+            if (!is_rebuilt_) continue;
+            cv::bitwise_not(view.colour, view.colour);
+            view.depth_m *= 1.25f;
         }
         return views;
     }
@@ -109,8 +101,8 @@ TEST_F(BakedBackgroundTest, NotesWhichRigsAPixelComesFrom) {
 TEST_F(BakedBackgroundTest, IsBakedAnewAfterAChange) {
     ASSERT_NE(baked(), nullptr);
     is_rebuilt_ = true;
-    // What was baked before ends with the change; improve() returns though the change is noticed
-    // in the instant that is baked.
+    // After the change the old probes are not drawn any more, and the next ones are made in the
+    // very instant in which the change is noticed. improve() has to end there too.
     constexpr int most = 24, refined = 1;
     bool has_ended = false;
     for (int i = 0; i < most && !has_ended; ++i) has_ended = !is_baked(*next(refined));

@@ -3,8 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
-#include "common/virtual_stage/virtual_rig.h"
-#include "common/virtual_stage/virtual_stage.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/unit/host_app/fused/stage_camera_at.h"
@@ -24,22 +22,15 @@ class OwnPictureTest : public testing::TestWithParam<int> {
     std::vector<DepthView> film(int instant) {
         std::vector<DepthView> views;
         for (const double azimuth_deg : {-20.0, 0.0, 20.0}) {
-            const StageCamera camera = camera_at(azimuth_deg, own_width_px, own_height_px);
-            StageRendering seen =
-                stage_.render(camera, std::chrono::milliseconds(1000 + 200 * instant));
+            DepthView& view =
+                views.emplace_back(exact_view_at(stage_, azimuth_deg, own_width_px, own_height_px,
+                                                 std::chrono::milliseconds(1000 + 200 * instant)));
             constexpr int block_px = 12, kinds = 5;
-            for (int y = 0; y < seen.depth_m.rows; ++y)
-                for (int x = 0; x < seen.depth_m.cols; ++x)
-                    seen.depth_m(y, x) *=
+            for (int y = 0; y < view.depth_m.rows; ++y)
+                for (int x = 0; x < view.depth_m.cols; ++x)
+                    view.depth_m(y, x) *=
                         1 + 0.0625f *
                                 static_cast<float>((x / block_px + 3 * (y / block_px)) % kinds - 2);
-            views.push_back({.name = std::to_string(azimuth_deg),
-                             .colour = seen.colour,
-                             .K = camera.K,
-                             .world_from_camera = camera.world_from_camera,
-                             .depth_m = seen.depth_m,
-                             .baseline_m = VirtualRigPlacement{}.baseline_m,
-                             .doffs_px = 0});
         }
         return views;
     }

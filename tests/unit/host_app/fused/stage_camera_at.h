@@ -2,9 +2,11 @@
 
 #include <chrono>
 #include <numbers>
+#include <string>
 
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 
@@ -18,6 +20,20 @@ inline StageCamera camera_at(double azimuth_deg, int width_px, int height_px) {
                            .width_px = width_px,
                            .height_px = height_px});
     return {width_px, height_px, rig.left.K(), rig.world_from_left};
+}
+
+/// What an ideal rig knows: the picture of its left camera with exact depth.
+inline DepthView exact_view_at(VirtualStage& stage, double azimuth_deg, int width_px, int height_px,
+                               std::chrono::nanoseconds time = stage_time) {
+    const StageCamera camera = camera_at(azimuth_deg, width_px, height_px);
+    StageRendering seen = stage.render(camera, time);
+    return {.name = std::to_string(azimuth_deg),
+            .colour = seen.colour,
+            .K = camera.K,
+            .world_from_camera = camera.world_from_camera,
+            .depth_m = seen.depth_m,
+            .baseline_m = VirtualRigPlacement{}.baseline_m,
+            .doffs_px = 0};
 }
 
 }  // namespace vantage

@@ -21,18 +21,9 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What an ideal rig knows: the picture of its left camera with exact depth.
 DepthView film(VirtualStage& stage, double azimuth_deg, int width_px = 320, int height_px = 240,
                std::chrono::nanoseconds time = stage_time) {
-    const StageCamera camera = camera_at(azimuth_deg, width_px, height_px);
-    StageRendering seen = stage.render(camera, time);
-    return {.name = std::to_string(azimuth_deg),
-            .colour = seen.colour,
-            .K = camera.K,
-            .world_from_camera = camera.world_from_camera,
-            .depth_m = seen.depth_m,
-            .baseline_m = VirtualRigPlacement{}.baseline_m,
-            .doffs_px = 0};
+    return exact_view_at(stage, azimuth_deg, width_px, height_px, time);
 }
 
 struct Score {
