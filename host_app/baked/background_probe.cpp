@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <opencv2/calib3d.hpp>
-
 namespace vantage {
 namespace {
 
@@ -12,9 +10,6 @@ namespace {
 constexpr double tile_error_px = 0.6;
 /// Pixels of a probe for each cell of its backdrop.
 constexpr int backdrop_cell_px = 16;
-/// Pixels of the largest speckle, and the step of parallax around it, in sixteenths of a pixel.
-constexpr int largest_speckle_px = 24, speckle_step = 16;
-
 /// Pixels that a surface is continued by into a hole, from each side.
 constexpr int widest_filled_px = 12;
 
@@ -51,21 +46,13 @@ Buffer indices_of(const ProbeTiles& probe) {
     return Buffer::of(std::span<const std::uint32_t>(indices));
 }
 
-/// Returns the distances of the places that have a colour, without speckles: small islands at
-/// another depth than all around are errors, and would be tiles of their own.
-DepthImage without_speckles(const ColourImage& colour, const DepthImage& depth_m,
-                            double parallax_px_m) {
-    DepthImage kept_m = cv::abs(depth_m);
-    // In steps of a sixteenth of a pixel of parallax; 0 is no depth.
-    cv::Mat1s parallax(kept_m.size(), std::int16_t{0});
-    for (int y = 0; y < kept_m.rows; ++y)
-        for (int x = 0; x < kept_m.cols; ++x)
-            if (kept_m(y, x) > 0 && colour(y, x)[3] > 0)
-                parallax(y, x) = cv::saturate_cast<std::int16_t>(
-                    std::max(1.0, 16 * parallax_px_m / kept_m(y, x)));
-    cv::filterSpeckles(parallax, 0, largest_speckle_px, speckle_step);
-    kept_m.setTo(0, parallax == 0);
-    return kept_m;
+/// Returns the distances of the places that have a colour.
+DepthImage distances_of(const ColourImage& colour, const DepthImage& depth_m) {
+    DepthImage distance_m = cv::abs(depth_m);
+    for (int y = 0; y < distance_m.rows; ++y)
+        for (int x = 0; x < distance_m.cols; ++x)
+            if (colour(y, x)[3] == 0) distance_m(y, x) = 0;
+    return distance_m;
 }
 
 /// Continues surfaces into the holes around them, up to `widest_filled_px` from each side. Holes
@@ -100,7 +87,7 @@ void fill_holes(ColourImage& colour, DepthImage& depth_m) {
 
 ProbeTiles probe_tiles(const VirtualView& view, const ColourImage& colour,
                        const DepthImage& depth_m, double parallax_px_m) {
-    DepthImage distance_m = without_speckles(colour, depth_m, parallax_px_m);
+    DepthImage distance_m = distances_of(colour, depth_m);
     ColourImage filled = colour.clone();
     fill_holes(filled, distance_m);
     ProbeTiles probe{
