@@ -125,6 +125,7 @@ void read_trigger(TomlTable& table, RigConfig::Trigger& trigger) {
 void read_match(TomlTable& table, RigConfig::Match& match) {
     table.read("matcher", match.matcher);
     table.read_choice("preset", match.preset, {"auto", "fast", "balanced", "quality"});
+    table.read("width_px", match.width_px, {16, 4096});
     table.read("disparities", match.disparities, {1, 256});
     table.read("fill", match.fill);
     table.read("steady", match.steady);

@@ -78,6 +78,7 @@ struct RigConfig {
             matcher;  ///< empty: the preset's default; "exact": the virtual stage's true depth
         std::string preset = "balanced";  ///< fast | balanced | quality | auto: the best one that
                                           ///< holds the source's rate with a margin of a third
+        int width_px = 0;  ///< of the pictures that are matched; 0: that of the colour picture
         int disparities = 64;
         bool fill = true;
         bool steady = true;  ///< temporal denoising where nothing moves

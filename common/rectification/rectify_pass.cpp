@@ -16,8 +16,9 @@ const CameraModel& camera_of(const StereoCalibration& calibration, Side side) {
 /// One pixel stands in for the whole where nothing has to be resampled.
 Texture make_target(TextureFormat format, const StereoCalibration& calibration, bool is_identity) {
     const RectifiedStereo& rectified = calibration.rectified;
+    const Filter filter = format == TextureFormat::rgba8 ? Filter::linear : Filter::nearest;
     return is_identity ? Texture(format, 1, 1)
-                       : Texture(format, rectified.width_px, rectified.height_px);
+                       : Texture(format, rectified.width_px, rectified.height_px, filter);
 }
 
 }  // namespace

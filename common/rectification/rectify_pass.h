@@ -24,7 +24,8 @@ class RectifyPass {
     /// raw: rgba8, of the size that the camera was calibrated for (Error naming both sizes if not).
     /// The result is rgba8 of the calibration's rectified size, opaque black where the raw picture
     /// shows nothing, owned by this pass and valid until the next call; if the calibration says
-    /// that the camera is rectified already, it is `raw` itself and costs nothing.
+    /// that the camera is rectified already, it is `raw` itself and costs nothing. Sampled
+    /// bilinearly.
     const Texture& rectify(const Texture& raw);
     /// The same of a camera's buffer, in one pass: YUV is resampled first and converted then. The
     /// camera must not be rectified already. Compiles a program at the first call for a format.

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 #include <utility>
@@ -64,11 +65,25 @@ nlohmann::json ask_program(const std::filesystem::path& folder, const std::strin
     return answer;
 }
 
+/// Returns the memory that the pairs of the stage's loop take in a rig, MB.
+int loop_mb(const DemoSize& size) {
+    constexpr double loop_s = 24, bytes_per_px = 2 * 3;
+    const double pairs = std::ceil(loop_s * size.rate_hz);
+    return static_cast<int>(std::ceil(1e-6 * pairs * size.rig[0] * size.rig[1] * bytes_per_px));
+}
+
 /// Adds virtual rigs in an arc around the stage, from left to right.
 void add_virtual_rigs(int count, const DemoSize& size, DemoStage& stage) {
     constexpr double apart_deg = 20;
     for (int number = 1; number <= count; ++number) {
         const double azimuth_deg = apart_deg * (number - 0.5 * (count + 1));
+        toml::table match{{"preset", size.preset}, {"disparities", size.disparities}};
+        if (size.match_width_px > 0) match.insert("width_px", size.match_width_px);
+        toml::table rig{{"azimuth_deg", azimuth_deg}};
+        if (size.is_software) {
+            rig.insert("loop_ahead", true);
+            rig.insert("loop_mb", loop_mb(size));
+        }
         stage.add_rig(fmt::format("rig{}", number),
                       toml::table{{"source", toml::table{{"kind", "virtual"},
                                                          {"rate_hz", size.rate_hz},
@@ -76,10 +91,8 @@ void add_virtual_rigs(int count, const DemoSize& size, DemoStage& stage) {
                                                          {"height_px", size.rig[1]},
                                                          {"noise_sigma", 1.0},
                                                          {"seed", number}}},
-                                  {"virtual_rig", toml::table{{"azimuth_deg", azimuth_deg},
-                                                              {"loop_ahead", size.is_software}}},
-                                  {"match", toml::table{{"preset", size.preset},
-                                                        {"disparities", size.disparities}}}});
+                                  {"virtual_rig", rig},
+                                  {"match", match}});
     }
 }
 

@@ -42,7 +42,7 @@ cv::Mat texels_of(const RawPicture& picture, const PicturePlane& plane) {
 CameraIntake::CameraIntake(const EglContext& context, const ShaderLibrary& library, cv::Size size)
     : context_(context),
       library_(library),
-      colour_(TextureFormat::rgba8, size.width, size.height),
+      colour_(TextureFormat::rgba8, size.width, size.height, Filter::linear),
       target_({&colour_}) {}
 
 void CameraIntake::prepare(const LentPicture& specimen, const std::string& why_not,

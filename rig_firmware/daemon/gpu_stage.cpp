@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -32,9 +33,29 @@ std::vector<std::string> allowed_presets(const RigConfig& config) {
     return {"quality", "balanced", "fast"};
 }
 
+/// Returns the size of the pictures that are matched. Throws Error if they would be larger than the
+/// colour picture, or if the exact disparity, which has the colour's size, is to have another one.
+cv::Size matched_size(const RigConfig& config, const RectifiedStereo& geometry) {
+    const int width_px = config.match.width_px;
+    if (width_px == 0) return {geometry.width_px, geometry.height_px};
+    if (config.match.matcher == exact_matcher)
+        fail(
+            "'width_px' in [match] is {}, and the exact disparity has the size of the picture: "
+            "leave it out or name a real matcher",
+            width_px);
+    if (width_px > geometry.width_px)
+        fail(
+            "'width_px' in [match] is {}, and the rectified picture is {} px wide: matching more "
+            "pixels than there are finds nothing; take at most {}",
+            width_px, geometry.width_px, geometry.width_px);
+    const double height_px = static_cast<double>(geometry.height_px) * width_px / geometry.width_px;
+    return {width_px, std::max(1, static_cast<int>(std::lround(height_px)))};
+}
+
 MatchSettings match_settings(const RigConfig& config, const RectifiedStereo& geometry) {
-    return {.width_px = geometry.width_px,
-            .height_px = geometry.height_px,
+    const cv::Size size = matched_size(config, geometry);
+    return {.width_px = size.width,
+            .height_px = size.height,
             .disparities = config.match.disparities,
             .preset = parse_preset(config.match.preset),
             .fill = config.match.fill,
@@ -68,9 +89,10 @@ void require_matching(const RigConfig& config, const StereoCalibration& calibrat
     for (const std::string& preset : allowed_presets(config)) {
         const RigConfig candidate = with_preset(config, preset);
         const std::string name = chosen_matcher(candidate);
+        const MatchSettings settings = match_settings(candidate, calibration.rectified);
         if (name == exact_matcher) return;
         require_matcher(name);
-        match_settings(candidate, calibration.rectified).validate();
+        settings.validate();
     }
 }
 
@@ -85,12 +107,17 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
       right_intake_(context_, shaders_, {calibration.right.width_px, calibration.right.height_px}),
       rectify_left_(shaders_, calibration, Side::left),
       rectify_right_(shaders_, calibration, Side::right),
+      matched_size_(matched_size(config, calibration.rectified)),
       sends_right_(config.stream.jpeg_quality > 0),
       packer_(config.stream.jpeg_quality, parse_chroma(config.stream.chroma)) {
     info_.require_vantage_minimum();
     prepare_intakes(config.source.buffers, specimens);
+    const cv::Size colour_size(calibration.rectified.width_px, calibration.rectified.height_px);
+    if (matched_size_ != colour_size)
+        for (auto* reduce : {&reduce_left_, &reduce_right_})
+            reduce->emplace(shaders_, colour_size, matched_size_);
     if (config.match.steady && config.match.matcher != exact_matcher)
-        steady_.emplace(shaders_, calibration.rectified.width_px, calibration.rectified.height_px);
+        steady_.emplace(shaders_, matched_size_.width, matched_size_.height);
     choose_matcher(config);
     // The dark frames are not part of the stream.
     right_sent_.reset();
@@ -223,8 +250,13 @@ void GpuStage::rectify_and_match(const StereoFrame& frame, RigFrame& result) {
     if (!has_colour) colour_readback_.begin(left);
     const bool is_timed = matcher_ && match_timer_.is_of_gpu();
     if (is_timed) match_timer_.begin();
-    const Texture* disparity = matcher_ ? &matcher_->match(left, *right) : nullptr;
-    if (disparity && steady_) disparity = &steady_->run(*disparity, left);
+    const Texture* disparity = nullptr;
+    if (matcher_) {
+        const Texture& matched_left = reduce_left_ ? reduce_left_->reduce(left) : left;
+        disparity =
+            &matcher_->match(matched_left, reduce_right_ ? reduce_right_->reduce(*right) : *right);
+        if (steady_) disparity = &steady_->run(*disparity, matched_left);
+    }
     if (is_timed) match_timer_.end();
     // All GPU work is queued; the first image that arrives is packed while the GPU matches.
     if (disparity) disparity_readback_.begin(*disparity);
@@ -246,7 +278,7 @@ std::vector<std::string> GpuStage::report() const {
                                        : "rectifying on the GPU");
     lines.push_back(
         fmt::format("matcher {}, {} disparities, {}x{}, {:.1f} MB of GPU objects", matcher_name_,
-                    disparities_, calibration_.rectified.width_px, calibration_.rectified.height_px,
+                    disparities_, matched_size_.width, matched_size_.height,
                     matcher_ ? static_cast<double>(matcher_->gpu_bytes()) * 1e-6 : 0.0));
     return lines;
 }

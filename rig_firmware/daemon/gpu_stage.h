@@ -18,6 +18,7 @@
 #include "rig_firmware/capture/camera_intake.h"
 #include "rig_firmware/capture/stereo_source.h"
 #include "rig_firmware/stereo/disparity/temporal_pass.h"
+#include "rig_firmware/stereo/features/reduce_pass.h"
 #include "rig_firmware/stereo/matcher.h"
 
 namespace vantage {
@@ -76,6 +77,8 @@ class GpuStage {
     std::string preset_report_;  ///< how the preset was chosen; empty if the configuration names it
     std::string intake_report_;  ///< empty if the source lends no buffers
     RectifyPass rectify_left_, rectify_right_;
+    cv::Size matched_size_;
+    std::optional<ReducePass> reduce_left_, reduce_right_;  ///< if less than the colour is matched
     GpuTimer rectify_timer_, match_timer_;
     Readback colour_readback_, right_readback_, disparity_readback_;
     bool sends_right_;                   ///< false with lossless colour

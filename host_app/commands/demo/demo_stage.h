@@ -22,6 +22,7 @@ struct DemoSize {
     int latency_budget_ms = 200;
     std::string rate = "50", preset = "balanced";  ///< rate: frames per second of the programme
     std::array<int, 2> picture = {1920, 1080}, rig = {960, 720};
+    int match_width_px = 0;  ///< of the pictures that the rigs match; 0: that of their colour
     int disparities = 96;
     /// The processor renders everything; the rigs render the stage's loop before they start.
     bool is_software = false;

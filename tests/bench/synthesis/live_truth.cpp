@@ -28,6 +28,8 @@ int main(int argc, char** argv) {
     steps->add_option("--rig-size", size, "Of the rigs' and of the virtual pictures");
     steps->add_option("--preset", preset, "Of the rigs' matchers");
     steps->add_option("--disparities", stepped.rigs.disparities);
+    steps->add_option("--match-width", stepped.rigs.match_width_px,
+                      "Of the pairs that are matched; 0: that of the rigs");
     steps
         ->add_option("--jpeg-quality", stepped.rigs.jpeg_quality,
                      "Of the rigs' colour; 0: it is not packed")

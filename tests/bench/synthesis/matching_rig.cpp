@@ -20,21 +20,34 @@ VirtualView camera_of(const StereoCalibration& rig) {
     return {rig.left.width_px, rig.left.height_px, rig.left.K(), rig.world_from_left};
 }
 
+namespace {
+
+/// Returns the size of the pictures that are matched.
+cv::Size match_size(const MatchingRig::Settings& settings) {
+    if (settings.match_width_px <= 0) return settings.size;
+    return {settings.match_width_px,
+            settings.size.height * settings.match_width_px / settings.size.width};
+}
+
+}  // namespace
+
 MatchingRig::MatchingRig(const ShaderLibrary& library, double azimuth_deg, std::uint64_t seed,
                          const Settings& settings)
     : calibration_(rig_at(azimuth_deg, settings.size)),
       rig_(calibration_, {.sigma = settings.noise_sigma, .seed = seed}),
-      left_(TextureFormat::rgba8, settings.size.width, settings.size.height),
-      right_(TextureFormat::rgba8, settings.size.width, settings.size.height),
+      left_(TextureFormat::rgba8, settings.size.width, settings.size.height, Filter::linear),
+      right_(TextureFormat::rgba8, settings.size.width, settings.size.height, Filter::linear),
       matcher_(make_matcher(default_matcher(settings.preset), library,
-                            {.width_px = settings.size.width,
-                             .height_px = settings.size.height,
+                            {.width_px = match_size(settings).width,
+                             .height_px = match_size(settings).height,
                              .disparities = settings.disparities,
                              .preset = settings.preset,
                              .of_stream = true})),
-      steady_(library, settings.size.width, settings.size.height),
+      steady_(library, match_size(settings).width, match_size(settings).height),
       jpeg_quality_(settings.jpeg_quality),
       chroma_(settings.chroma) {
+    if (match_size(settings) != settings.size)
+        reduce_.emplace(library, settings.size, match_size(settings));
     view_.name = fmt::format("{:g}", azimuth_deg);
     view_.K = calibration_.left.K();
     view_.world_from_camera = calibration_.world_from_left;
@@ -47,7 +60,9 @@ void MatchingRig::film(VirtualStage& stage, std::chrono::nanoseconds stage_time,
     VirtualStereoFrame frame = rig_.render(stage, stage_time, instant);
     left_.upload(frame.left);
     right_.upload(frame.right);
-    const cv::Mat found = steady_.run(matcher_->match(left_, right_), left_).download();
+    const Texture& left = reduce_ ? reduce_->left.reduce(left_) : left_;
+    const Texture& right = reduce_ ? reduce_->right.reduce(right_) : right_;
+    const cv::Mat found = steady_.run(matcher_->match(left, right), left).download();
     view_.colour = frame.left;
     if (jpeg_quality_ > 0)
         view_.colour =
@@ -74,13 +89,15 @@ DepthView MatchingRig::view(bool with_own_depth) const {
 }
 
 DepthImage MatchingRig::depth_of(const cv::Mat& disparity) const {
+    const double px_per_step = calibration_.rectified.width_px /
+                               static_cast<double>(disparity.cols * disparity_steps_per_px);
     DepthImage depth_m(disparity.size());
     for (int y = 0; y < depth_m.rows; ++y)
         for (int x = 0; x < depth_m.cols; ++x) {
             const auto steps = disparity.at<std::uint16_t>(y, x);
-            depth_m(y, x) = steps > 0 ? static_cast<float>(calibration_.rectified.depth_m(
-                                            steps / static_cast<double>(disparity_steps_per_px)))
-                                      : 0.0f;
+            depth_m(y, x) =
+                steps > 0 ? static_cast<float>(calibration_.rectified.depth_m(steps * px_per_step))
+                          : 0.0f;
         }
     return depth_m;
 }

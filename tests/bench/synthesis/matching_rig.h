@@ -11,6 +11,7 @@
 #include "host_app/views/depth_view.h"
 #include "host_app/views/virtual_view.h"
 #include "rig_firmware/stereo/disparity/temporal_pass.h"
+#include "rig_firmware/stereo/features/reduce_pass.h"
 #include "rig_firmware/stereo/matcher.h"
 
 namespace vantage {
@@ -26,6 +27,7 @@ class MatchingRig {
   public:
     struct Settings {
         cv::Size size{320, 240};
+        int match_width_px = 0;  ///< of the pair that is matched; 0: that of `size`
         int disparities = 64;
         MatchPreset preset = MatchPreset::quality;
         double noise_sigma = 1;  ///< of the sensors, grey levels
@@ -43,11 +45,18 @@ class MatchingRig {
     DepthView view(bool with_own_depth) const;
 
   private:
+    /// `disparity` is in px of its own width.
     DepthImage depth_of(const cv::Mat& disparity) const;
 
     StereoCalibration calibration_;
     VirtualRig rig_;
     Texture left_, right_;
+    struct Reduce {
+        ReducePass left, right;
+        Reduce(const ShaderLibrary& library, cv::Size from, cv::Size to)
+            : left(library, from, to), right(library, from, to) {}
+    };
+    std::optional<Reduce> reduce_;  ///< if fewer pixels are matched than are shown
     std::unique_ptr<Matcher> matcher_;
     TemporalPass steady_;
     int jpeg_quality_;

@@ -20,6 +20,7 @@ TEST_F(RigConfigTest, UsesDefaultsForMissingKeys) {
     EXPECT_EQ(config.name, "a");
     EXPECT_EQ(config.source.kind, "virtual");
     EXPECT_EQ(config.match.preset, "balanced");
+    EXPECT_EQ(config.match.width_px, 0) << "that of the picture";
     EXPECT_EQ(config.stream.queue_frames, 4);
     EXPECT_TRUE(config.calibration.empty());
     EXPECT_FALSE(config.uncalibrated);
@@ -61,6 +62,7 @@ doffs_px = 12
 scene = 7
 [match]
 matcher = "gradient"
+width_px = 200
 preset = "fast"
 disparities = 32
 fill = false
@@ -101,6 +103,7 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.virtual_rig.scene, 7);
     EXPECT_EQ(config.match.matcher, "gradient");
     EXPECT_EQ(config.match.preset, "fast");
+    EXPECT_EQ(config.match.width_px, 200);
     EXPECT_EQ(config.match.disparities, 32);
     EXPECT_FALSE(config.match.fill);
     EXPECT_TRUE(config.match.steady);

@@ -55,6 +55,44 @@ TEST_F(GpuStageTest, MatchesRectifiedPicturesAsTheyAre) {
     EXPECT_FALSE(gpu.report().empty());
 }
 
+/// The right picture is 5 px to the left in the colour's pixels, whatever is matched.
+TEST_F(GpuStageTest, MatchesSmallerPicturesAndKeepsTheColour) {
+    constexpr int matched_width = 48, matched_height = 37;
+    config_.match.width_px = matched_width;
+    const StereoCalibration calibration = ideal_rig(config_, {width, height});
+    GpuStage gpu(config_, calibration);
+    const RigFrame result = gpu.process(frame_);
+    EXPECT_EQ(cv::norm(result.colour, frame_.left, cv::NORM_INF), 0);
+    EXPECT_EQ(result.geometry.width_px, width);
+    ASSERT_EQ(result.disparity.size(), cv::Size(matched_width, matched_height));
+    const DisparityImage inner = result.disparity(cv::Rect(16, 7, 24, 24));
+    constexpr double expected = 5.0 * matched_width / width * disparity_steps_per_px,
+                     tolerance = 0.5 * disparity_steps_per_px;
+    const cv::Mat near = (inner >= expected - tolerance) & (inner <= expected + tolerance);
+    EXPECT_GT(cv::countNonZero(near), 0.9 * 24 * 24);
+}
+
+TEST_F(GpuStageTest, NamesAMatchedWidthThatCannotBe) {
+    config_.match.width_px = width + 1;
+    const StereoCalibration calibration = ideal_rig(config_, {width, height});
+    const auto fault = [&] {
+        try {
+            require_matching(config_, calibration);
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string("none");
+    };
+    EXPECT_EQ(fault(),
+              "'width_px' in [match] is 62, and the rectified picture is 61 px wide: matching more "
+              "pixels than there are finds nothing; take at most 61");
+    config_.match.width_px = 48;
+    config_.match.matcher = exact_matcher;
+    EXPECT_EQ(fault(),
+              "'width_px' in [match] is 48, and the exact disparity has the size of the picture: "
+              "leave it out or name a real matcher");
+}
+
 /// Pictures that drivers are warmed up with are no part of the stream, however dark that is.
 TEST_F(GpuStageTest, GivesAStillDarkPairTheSameDisparityFromTheFirstFrameOn) {
     config_.match.matcher.clear();

@@ -1,0 +1,41 @@
+#include "rig_firmware/stereo/features/reduce_pass.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+namespace vantage {
+namespace {
+
+/// Returns the ratio of two sizes, width and height.
+Eigen::Vector2f ratio(cv::Size from, cv::Size to) {
+    return {static_cast<float>(from.width) / static_cast<float>(to.width),
+            static_cast<float>(from.height) / static_cast<float>(to.height)};
+}
+
+/// Returns the samples a side: one bilinear sample covers two pixels.
+int taps(cv::Size from, cv::Size to) {
+    return static_cast<int>(std::ceil(0.5f * ratio(from, to).maxCoeff()));
+}
+
+}  // namespace
+
+ReducePass::ReducePass(const ShaderLibrary& library, cv::Size from, cv::Size to)
+    : from_(from),
+      reduced_(TextureFormat::rgba8, to.width, to.height),
+      target_({&reduced_}),
+      pass_(library, "picture_reduce.frag", {{"TAPS", std::to_string(taps(from, to))}}) {
+    assert(to.width <= from.width && to.height <= from.height);
+}
+
+const Texture& ReducePass::reduce(const Texture& picture) {
+    assert(picture.size() == from_);
+    Program& program = pass_.use();
+    program.input("picture", picture);
+    program.set("px_per_px", ratio(from_, reduced_.size()));
+    pass_.overwrite(target_);
+    return reduced_;
+}
+
+}  // namespace vantage
