@@ -144,43 +144,53 @@ void run(const PrintedBoardOptions& options) {
 
 CommandEntry board_command_entry() {
     return {[](CLI::App& program) {
-        CLI::App* command = program.add_subcommand(
-            "board", "Draw a calibration target: PDF true to scale, PNG, and its description");
+        CLI::App* command =
+            program.add_subcommand("board",
+                                   "Draw a calibration board: a PDF true to scale, a PNG, and a "
+                                   "description for the other commands");
         const auto options = std::make_shared<PrintedBoardOptions>();
-        command->add_option("--kind", options->kind, "what to draw")
+        command->add_option("--kind", options->kind, "Draw this kind of board")
             ->check(CLI::IsMember({"chessboard", "charuco"}))
             ->capture_default_str();
-        command->add_option("--board", options->size, "inner corners, such as 9x6")->required();
         command
-            ->add_option("--square-m", options->square_m,
-                         "side of a square in metres; with --paper the largest that fits if left "
-                         "out")
+            ->add_option("--board", options->size,
+                         "Set the number of inner corners, COLUMNSxROWS, such as 9x6")
+            ->required();
+        command
+            ->add_option(
+                "--square-m", options->square_m,
+                "Set the side of a square in metres (default with --paper: the largest that fits)")
             ->check(CLI::PositiveNumber);
         command->add_option("--paper", options->paper,
-                            "sheet to draw on: a4, a3, a2, letter, or WIDTHxHEIGHT in mm; a board "
-                            "that does not fit is refused");
+                            "Draw on this sheet: a4, a3, a2, letter, or WIDTHxHEIGHT in mm; a "
+                            "board that does not fit is refused");
         command->add_option("--marker-m", options->marker_m,
-                            "side of a marker in metres (default: 0.7 squares)");
-        command->add_option("--dictionary", options->dictionary, "ArUco dictionary")
+                            "Set the side of a marker in metres (default: 0.7 of the square's)");
+        command
+            ->add_option("--dictionary", options->dictionary,
+                         "Take the markers from this ArUco dictionary")
             ->capture_default_str();
         command
             ->add_option("--first-marker", options->first_marker,
-                         "number of its first marker, so that several boards share none")
+                         "Set the number of the first marker; boards that are used together need "
+                         "different markers")
             ->check(CLI::Range(0, 9999))
             ->capture_default_str();
         command
             ->add_option("--faces", options->faces,
-                         "boards to draw that are fixed to each other, one a face of a cube or of "
-                         "several cubes on a stick; each has markers of its own")
+                         "Draw this many boards for the faces of a cube, or of several cubes on a "
+                         "stick; each board gets different markers")
             ->check(CLI::Range(1, 100))
             ->capture_default_str();
-        command->add_option("--dpi", options->dots_per_inch, "of the PNG")
+        command
+            ->add_option("--dpi", options->dots_per_inch,
+                         "Set the resolution of the PNG in dots per inch")
             ->check(CLI::Range(10.0, 2400.0))
             ->capture_default_str();
         command
-            ->add_option("-o,--output", options->output, "path; .pdf, .png and .toml are written")
+            ->add_option("-o,--output", options->output, "Write PATH.pdf, PATH.png and PATH.toml")
             ->required();
-        command->add_flag("--json", options->json, "write the result as JSON");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};
 }

@@ -12,9 +12,9 @@ namespace vantage {
 
 void BoardOptions::add_to(CLI::App& command) {
     CLI::Option* board = command.add_option(
-        "--board", size, "inner corners of the chessboard, such as 9x6; with --square-m");
-    CLI::Option* square = command.add_option("--square-m", square_m,
-                                             "side of a square in metres, measured on the board");
+        "--board", size, "Set the number of inner corners of the chessboard, such as 9x6");
+    CLI::Option* square = command.add_option(
+        "--square-m", square_m, "Set the side of a square in metres, measured on the board");
     CLI::Option* description = command.add_option(
         "--board-file", files, "description of the board that `vantage-calib board` wrote");
     board->needs(square)->excludes(description);

@@ -54,21 +54,23 @@ CommandEntry check_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
             "check",
-            "Say how well a stage still fits its calibration, without any board; exit status 0 for "
-            "good and warn, 1 for bad, 3 where it cannot be told");
+            "Check how well a stage still fits its calibration, without a board; exit with 0 for "
+            "good and warn, 1 for bad, 3 if the pictures show too little to decide");
         const auto options = std::make_shared<CheckOptions>();
         command
             ->add_option("--rig", options->rigs,
-                         "NAME=FOLDER, once a rig: calibration.yaml, left*N.png and right*N.png, "
-                         "raw pictures of whatever stands on the stage")
+                         "Folder of a rig, given as NAME=FOLDER, with calibration.yaml, left*N.png "
+                         "and right*N.png, raw pictures of anything on the stage; with --live a "
+                         "calibration file is enough; repeat the option for each rig")
             ->required();
         options->live.add_to(*command);
         command->add_option("--instant", options->instant,
-                            "number of the pictures to take (default: each rig's first)");
-        command->add_option("--html", options->html, "report to write, a page for a browser");
-        command->add_option("--history", options->history,
-                            "file that keeps the values of every check (JSON, a line a check)");
-        command->add_flag("--json", options->json, "write the result as JSON");
+                            "Use the pictures with this number (default: each rig's first)");
+        command->add_option("--html", options->html, "Write a report for a browser to this file");
+        command->add_option(
+            "--history", options->history,
+            "Append the values of this check to this file, one line of JSON per check");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};
 }

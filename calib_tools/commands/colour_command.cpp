@@ -132,22 +132,27 @@ void run(const ColourOptions& options) {
 
 CommandEntry colour_command_entry() {
     return {[](CLI::App& program) {
-        CLI::App* command = program.add_subcommand(
-            "colour", "Make the colours of all rigs alike, from a chart or from what they share");
+        CLI::App* command = program.add_subcommand("colour",
+                                                   "Match the colours of all rigs, with a colour "
+                                                   "chart or with surfaces that two rigs see");
         const auto options = std::make_shared<ColourOptions>();
         command->add_option("--rig", options->rigs,
-                            "NAME=FOLDER, once a rig: calibration.yaml (placed by `stage`), "
-                            "left*N.png and right*N.png, raw pictures of one instant");
+                            "Folder of a rig, given as NAME=FOLDER, with calibration.yaml that "
+                            "`stage` has placed, left*N.png and right*N.png, raw pictures of one "
+                            "moment; repeat the option for each rig");
         options->live.add_to(*command);
         command->add_option("--chart", options->charts,
-                            "NAME='PATTERN', once a rig: pictures of a chart of 24 patches");
+                            "Pictures of a chart of 24 patches before the rig NAME, given as "
+                            "NAME='PATTERN'; repeat the option for each rig");
         command->add_option("--reference", options->reference,
-                            "rig whose colours the others take (default: the first)");
+                            "Match the other rigs to the colours of this rig (default: the first)");
         command->add_option("--instant", options->instant,
-                            "number of the pictures to take (default: each rig's first)");
-        command->add_option("-o,--output", options->output, "folder for one NAME.colour.toml a rig")
+                            "Use the pictures with this number (default: each rig's first)");
+        command
+            ->add_option("-o,--output", options->output,
+                         "Write NAME.colour.toml for each rig to this folder")
             ->required();
-        command->add_flag("--json", options->json, "write the result as JSON");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};
 }

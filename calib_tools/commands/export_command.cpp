@@ -47,20 +47,21 @@ void export_foreign(const ForeignExportOptions& options) {
 CommandEntry export_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
-            "export", "Write a calibration of Vantage as another program reads it");
+            "export", "Convert a calibration of Vantage to the format of another program");
         const auto options = std::make_shared<ForeignExportOptions>();
-        command->add_option("CALIB.yaml", options->calibration, "calibration of a rig")->required();
+        command->add_option("CALIB.yaml", options->calibration, "Calibration file of a rig")
+            ->required();
         std::vector<std::string> forms;
         for (const CalibrationForm& form : calibration_forms())
             if (form.write) forms.push_back(form.name);
-        command->add_option("--as", options->form, "form to write")
+        command->add_option("--as", options->form, "Write this format")
             ->required()
             ->check(CLI::IsMember(forms));
         command
             ->add_option("-o,--output", options->output,
-                         "file to write; for ros and colmap, a folder")
+                         "Write this file; for ros and colmap, a folder")
             ->required();
-        command->add_flag("--json", options->json, "write the result as JSON");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { export_foreign(*options); });
     }};
 }

@@ -178,53 +178,60 @@ std::string known_programs() {
 CommandEntry import_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
-            "import", "Make a calibration of Vantage from the files of another program");
+            "import",
+            "Convert the calibration files of another program to a calibration of Vantage");
         const auto options = std::make_shared<ForeignImportOptions>();
         command
             ->add_option("FILE", options->files,
-                         "files of one calibration, or the folder of a COLMAP model; known are: " +
+                         "Files of one calibration, or the folder of a COLMAP model; known are: " +
                              known_programs())
             ->required();
         command
             ->add_option("-o,--output", options->output,
-                         "calibration file to write (YAML); with --all a folder")
+                         "Write this calibration file (YAML); with --all, this folder")
             ->required();
-        command->add_option("--left", options->settings.left,
-                            "name of the left camera, where the files have several");
-        command->add_option("--right", options->settings.right, "name of the right camera");
+        command->add_option(
+            "--left", options->settings.left,
+            "Take the camera with this name as the left one, if the files have several");
+        command->add_option("--right", options->settings.right,
+                            "Take the camera with this name as the right one");
         command->add_flag("--all", options->all,
-                          "take every camera as a single camera of a stage: -o is a folder for a "
-                          "lens file each and stage.toml with their places");
-        command->add_option("--up", options->up, "--all: axis of the file's world that points up")
+                          "Import every camera as a single camera of a stage: write a lens file "
+                          "for each, and stage.toml with their places, to the folder -o");
+        command
+            ->add_option("--up", options->up,
+                         "With --all: set the axis of the file's world that points up")
             ->check(CLI::IsMember({"x", "y", "z", "-x", "-y", "-z"}))
             ->capture_default_str();
         command
             ->add_option("--unit", options->unit,
-                         "unit of the file's lengths, where its form defines none")
+                         "Set the unit of the file's lengths, if its format defines none")
             ->check(CLI::IsMember({"m", "cm", "mm", "inch"}));
         command
             ->add_option("--baseline-m", options->settings.baseline_m,
-                         "measured distance of the cameras in metres: sets the scale")
+                         "Set the scale by the measured distance between the cameras in metres")
             ->check(CLI::PositiveNumber);
         command
             ->add_option("--size", options->size,
-                         "WIDTH HEIGHT of the pictures, where the files do not state it")
+                         "Set WIDTH and HEIGHT of the pictures, if the files do not state them")
             ->expected(2)
             ->delimiter('x')
             ->check(CLI::Range(1, 16384));
         command->add_flag("--fisheye", options->settings.form.is_fisheye,
-                          "the lens model is OpenCV's fisheye, where the files do not state it");
+                          "Use OpenCV's fisheye lens model, if the files do not state a model");
         command
-            ->add_option("--alpha", options->settings.alpha,
-                         "rectified picture: 0 only valid pixels, 1 all raw pixels")
+            ->add_option(
+                "--alpha", options->settings.alpha,
+                "Crop the rectified picture: 0 keeps valid pixels only, 1 keeps all raw pixels")
             ->check(CLI::Range(0.0, 1.0))
             ->capture_default_str();
         command
-            ->add_option("--check", options->check,
-                         "a raw pair of the rig: measure how well its rows agree")
+            ->add_option(
+                "--check", options->check,
+                "Measure with this raw pair of the rig how well the rows of both pictures agree")
             ->expected(2)
             ->type_name("LEFT RIGHT");
-        command->add_flag("--json", options->json, "write the result as JSON");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { import_foreign(*options); });
     }};
 }

@@ -93,15 +93,16 @@ CommandEntry intrinsics_command_entry() {
         const auto options = std::make_shared<IntrinsicsOptions>();
         options->board.add_to(*command);
         options->lens.add_to(*command);
-        command->add_option("--images", options->pictures, "pictures: 'PATTERN', folder or files");
+        command->add_option("--images", options->pictures,
+                            "Read these pictures: 'PATTERN', a folder or files");
         options->live.add_to(*command);
-        command->add_option("--side", options->side, "which of the cameras of --rig")
+        command->add_option("--side", options->side, "Calibrate this camera of --rig")
             ->check(CLI::IsMember({"left", "right"}))
             ->capture_default_str();
         command->add_option("-o,--output", options->output,
-                            "file to write (YAML, with the names of OpenCV's samples)");
-        command->add_option("--html", options->html, "report to write, a page for a browser");
-        command->add_flag("--json", options->json, "write the result as JSON");
+                            "Write this lens file (YAML, with the keys of OpenCV's samples)");
+        command->add_option("--html", options->html, "Write a report for a browser to this file");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};
 }

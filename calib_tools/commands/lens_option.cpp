@@ -5,7 +5,9 @@ namespace vantage {
 void LensOption::add_to(CLI::App& command) {
     std::string names;
     for (const LensFamily& family : lens_families()) names += ", " + std::string(family.name);
-    command.add_option("--lens", name, "distortion: auto (by error on withheld views)" + names);
+    command.add_option(
+        "--lens", name,
+        "Set the lens model: auto (the one with the smallest error on withheld views)" + names);
 }
 
 const LensFamily* LensOption::family() const {

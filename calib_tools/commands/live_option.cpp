@@ -7,12 +7,15 @@ namespace vantage {
 void LiveOption::add_to(CLI::App& command) {
     CLI::Option* live = command.add_option(
         "--live", stage_file,
-        "stage.toml: take the pictures from the running rigs of this stage, not from files");
-    command.add_option("--views", views, "live: instants to keep at most")
+        "Take the pictures from the running rigs of this stage file (stage.toml) instead of files");
+    command
+        .add_option("--views", views, "With --live: keep the pictures of at most this many pulses")
         ->check(CLI::Range(3, 1000))
         ->capture_default_str()
         ->needs(live);
-    command.add_option("--patience-s", patience_s, "live: how long rigs may be silent")
+    command
+        .add_option("--patience-s", patience_s,
+                    "With --live: stop after this many seconds without pictures")
         ->check(CLI::Range(1, 3600))
         ->capture_default_str()
         ->needs(live);
@@ -22,16 +25,15 @@ void LiveOption::add_film_to(CLI::App& command) {
     add_to(command);
     command
         .add_flag("--go-on", go_on,
-                  "live: film on from the pictures that an earlier film left in the folders")
+                  "With --live: continue with the pictures that an earlier run left in the folders")
         ->needs("--live");
 }
 
 void LiveRigOption::add_to(CLI::App& command) {
     add_film_to(command);
-    command.add_option(
-        "--rig", rig,
-        "NAME=FOLDER: the rig of the stage and the folder that keeps its pictures; without --live "
-        "they are taken from the folder");
+    command.add_option("--rig", rig,
+                       "Calibrate the rig NAME with the pictures in FOLDER, given as NAME=FOLDER; "
+                       "--live stores its pictures there first");
 }
 
 RigFolder LiveRigOption::folder() const {

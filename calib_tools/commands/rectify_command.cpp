@@ -83,17 +83,24 @@ void run(const RectifyOptions& options) {
 CommandEntry rectify_command_entry() {
     return {[](CLI::App& program) {
         CLI::App* command = program.add_subcommand(
-            "rectify", "Rectify one pair by a calibration, on the GPU, as the rig daemon does");
+            "rectify",
+            "Rectify one pair with a calibration, by the same GPU code as the rig daemon");
         const auto options = std::make_shared<RectifyOptions>();
-        command->add_option("left", options->left, "raw left picture")->required();
-        command->add_option("right", options->right, "raw right picture")->required();
-        command->add_option("--calibration", options->calibration, "calibration file (YAML)")
+        command->add_option("left", options->left, "Raw left picture")->required();
+        command->add_option("right", options->right, "Raw right picture")->required();
+        command
+            ->add_option("--calibration", options->calibration,
+                         "Rectify with this calibration file (YAML)")
             ->required();
-        command->add_option("--out-left", options->out_left, "rectified left picture to write")
+        command
+            ->add_option("--out-left", options->out_left,
+                         "Write the rectified left picture to this file")
             ->required();
-        command->add_option("--out-right", options->out_right, "rectified right picture to write")
+        command
+            ->add_option("--out-right", options->out_right,
+                         "Write the rectified right picture to this file")
             ->required();
-        command->add_flag("--json", options->json, "write the result as one JSON object");
+        command->add_flag("--json", options->json, "Print the result as one JSON object");
         command->callback([options] { run(*options); });
     }};
 }

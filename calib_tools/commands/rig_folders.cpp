@@ -7,9 +7,12 @@
 namespace vantage {
 
 std::filesystem::path calibration_file_of(const RigFolder& rig) {
+    // The name of a file that is missing must not look like that of a folder.
     std::error_code ignored;
-    return std::filesystem::is_regular_file(rig.folder, ignored) ? rig.folder
-                                                                 : rig.folder / "calibration.yaml";
+    const bool is_file =
+        std::filesystem::is_regular_file(rig.folder, ignored) ||
+        (rig.folder.extension() == ".yaml" && !std::filesystem::is_directory(rig.folder, ignored));
+    return is_file ? rig.folder : rig.folder / "calibration.yaml";
 }
 
 std::vector<RigFolder> parse_rig_folders(const std::vector<std::string>& arguments) {

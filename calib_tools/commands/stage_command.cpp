@@ -182,63 +182,69 @@ void run(const StageOptions& options) {
 
 CommandEntry stage_command_entry() {
     return {[](CLI::App& program) {
-        CLI::App* command = program.add_subcommand(
-            "stage",
-            "Find where every rig stands, from pictures of a board that rigs saw together");
+        CLI::App* command =
+            program.add_subcommand("stage",
+                                   "Find the place of every rig, from pictures of a board that "
+                                   "several rigs see at the same moment");
         const auto options = std::make_shared<StageOptions>();
         options->board.add_to(*command);
-        command->add_option(
-            "--rig", options->rigs,
-            "NAME=FOLDER, once a rig: calibration.yaml, left*N.png and right*N.png; "
-            "equal numbers are equal instants (live: the folder keeps them)");
+        command->add_option("--rig", options->rigs,
+                            "Folder of a rig, given as NAME=FOLDER, with calibration.yaml, "
+                            "left*N.png and right*N.png; equal N are the same moment; --live "
+                            "stores the pictures there; repeat the option for each rig");
         command->add_option("--floor", options->floor,
-                            "number of the pictures in which the board lies on the floor, at the "
-                            "world's origin");
+                            "Put the world's origin where the board lies on the floor in the "
+                            "pictures with this number");
         command->add_option("--floor-board", options->floor_board,
-                            "name of the board on the floor, where several are seen: that of its "
-                            "description without extension");
+                            "Of several boards, the one with this name lies on the floor; the name "
+                            "is that of its description without extension");
         options->live.add_film_to(*command);
         command->add_flag("--floor-first", options->floor_first,
-                          "live: in the first instant kept the board lies on the floor, at the "
-                          "world's origin");
+                          "With --live: put the world's origin where the board lies on the floor "
+                          "in the first pictures kept");
         command->add_flag("--hold-lenses", options->hold_lenses,
-                          "leave lenses and baselines as each rig's own calibration has them");
-        command->add_option("-o,--output", options->output, "folder for one NAME.yaml a rig")
+                          "Keep the lenses and baselines of each rig's calibration, and solve only "
+                          "the rigs' places");
+        command
+            ->add_option("-o,--output", options->output,
+                         "Write NAME.yaml for each rig to this folder")
             ->required();
         PairLimits& limits = options->single_cameras.limits;
         CLI::Option* pairs =
             command
-                ->add_option("--pairs", options->pairs,
-                             "auto: form stereo rigs of the [[cameras]] of --stage that stand near "
-                             "enough; a calibration and a rig file each, and a stage file")
+                ->add_option(
+                    "--pairs", options->pairs,
+                    "auto: form stereo rigs from the [[cameras]] of --stage that stand near "
+                    "enough, and write a calibration and a rig file for each, and a stage file")
                 ->check(CLI::IsMember({"auto"}));
-        CLI::Option* stage = command
-                                 ->add_option("--stage", options->single_cameras.stage,
-                                              "stage file with [[cameras]], for --pairs")
-                                 ->needs(pairs);
+        CLI::Option* stage =
+            command
+                ->add_option("--stage", options->single_cameras.stage,
+                             "With --pairs: read the [[cameras]] of this stage file")
+                ->needs(pairs);
         pairs->needs(stage);
         command
             ->add_option("--most-angle-deg", limits.most_angle_deg,
-                         "--pairs: largest angle between the axes of a pair")
+                         "With --pairs: set the largest angle between the axes of a pair")
             ->needs(pairs)
             ->check(CLI::Range(1.0, 60.0))
             ->capture_default_str();
         command
             ->add_option("--least-overlap", limits.least_overlap,
-                         "--pairs: smallest share of the view that both cameras have in common at "
-                         "the middle of the stage")
+                         "With --pairs: set the smallest share of the view that both cameras have "
+                         "in common at the middle of the stage")
             ->needs(pairs)
             ->check(CLI::Range(0.05, 1.0))
             ->capture_default_str();
         command
             ->add_option("--most-baseline-share", limits.most_baseline_share,
-                         "--pairs: largest baseline, relative to the distance of the middle of "
-                         "the stage")
+                         "With --pairs: set the largest baseline, relative to the distance of the "
+                         "middle of the stage")
             ->needs(pairs)
             ->check(CLI::Range(0.01, 2.0))
             ->capture_default_str();
-        command->add_option("--html", options->html, "report to write, a page for a browser");
-        command->add_flag("--json", options->json, "write the result as JSON");
+        command->add_option("--html", options->html, "Write a report for a browser to this file");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};
 }

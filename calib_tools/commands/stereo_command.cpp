@@ -148,34 +148,37 @@ CommandEntry stereo_command_entry() {
         options->board.add_to(*command);
         options->lens.add_to(*command);
         command->add_option("--left", options->left,
-                            "left pictures: 'PATTERN', folder, files or a video");
+                            "Read the left pictures: 'PATTERN', a folder, files or a video");
         command->add_option("--right", options->right,
-                            "right pictures: 'PATTERN', folder, files or a video");
+                            "Read the right pictures: 'PATTERN', a folder, files or a video");
         command
-            ->add_option("--side-by-side", options->side_by_side,
-                         "pictures or a video that hold both sides: the left one in the left half")
+            ->add_option(
+                "--side-by-side", options->side_by_side,
+                "Read pictures or a video that hold both sides, the left one in the left half")
             ->excludes("--left", "--right");
         options->live.add_to(*command);
-        command->add_option("-o,--output", options->output, "calibration file to write (YAML)")
+        command->add_option("-o,--output", options->output, "Write this calibration file (YAML)")
             ->required();
         command
-            ->add_option("--alpha", options->alpha,
-                         "rectified picture: 0 only valid pixels, 1 all raw pixels")
+            ->add_option(
+                "--alpha", options->alpha,
+                "Crop the rectified picture: 0 keeps valid pixels only, 1 keeps all raw pixels")
             ->check(CLI::Range(0.0, 1.0))
             ->capture_default_str();
         command
             ->add_option("--far-m", options->far_m,
-                         "distance in metres at which the disparity is 0, nothing beyond is "
-                         "measured (default: infinity, or twice the distance at which the axes of "
-                         "cameras that are toed in cross)")
+                         "Set the distance in metres at which the disparity is 0; nothing beyond "
+                         "it is measured (default: infinity; for cameras that are toed in, twice "
+                         "the distance at which their axes cross)")
             ->check(CLI::PositiveNumber);
         command
             ->add_option("--rectified-size", options->rectified_size,
-                         "WIDTH HEIGHT of the rectified pictures (default: as the raw ones)")
+                         "Set WIDTH and HEIGHT of the rectified pictures (default: those of the "
+                         "raw pictures)")
             ->expected(2)
             ->check(CLI::Range(16, 16384));
-        command->add_option("--html", options->html, "report to write, a page for a browser");
-        command->add_flag("--json", options->json, "write the result as JSON");
+        command->add_option("--html", options->html, "Write a report for a browser to this file");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};
 }

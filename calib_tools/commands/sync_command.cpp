@@ -124,7 +124,7 @@ void run(const SyncOptions& options) {
         fail("of which stage? give --live stage.toml, or --stage stage.toml with pictures of it");
     const std::vector<RigFolder> rigs = parse_rig_folders(options.rigs);
     if (rigs.empty() && !options.live.given())
-        fail("which pictures? give --rig NAME=FOLDER once a rig, or --live stage.toml");
+        fail("which pictures? give --rig NAME=FOLDER for each rig, or --live stage.toml");
     const SyncBar bar(options.leds, from_us(options.step_us));
     const double rate_hz = load_stage_config(stage_file).rate_hz;
     std::vector<Film> films;
@@ -158,35 +158,42 @@ void run(const SyncOptions& options) {
 
 CommandEntry sync_command_entry() {
     return {[](CLI::App& program) {
-        CLI::App* command = program.add_subcommand(
-            "sync",
-            "Prove by pictures of a counting bar of LEDs that all sensors expose at once; exit "
-            "status 0 where they do, 1 where they do not, 3 where it cannot be told");
+        CLI::App* command =
+            program.add_subcommand("sync",
+                                   "Prove with pictures of a counting bar of LEDs that all sensors "
+                                   "expose at the same time; exit with 0 if they do, 1 if they do "
+                                   "not, 3 if the pictures show too little to decide");
         const auto options = std::make_shared<SyncOptions>();
         options->live.views = 24;
         command->add_option("--rig", options->rigs,
-                            "NAME=FOLDER, once a rig: left_PULSE.png and right_PULSE.png, raw "
-                            "pictures of the bar; with --live NAME alone (default: all rigs)");
+                            "Folder of a rig, given as NAME=FOLDER, with left_PULSE.png and "
+                            "right_PULSE.png, raw pictures of the bar; with --live the name alone "
+                            "(default: all rigs); repeat the option for each rig");
         options->live.add_to(*command);
-        command->add_option("--stage", options->stage,
-                            "stage.toml of the stage that the pictures are of, without --live");
-        command->add_option("--leds", options->leds, "LEDs of the bar")
+        command->add_option(
+            "--stage", options->stage,
+            "Without --live: the stage file (stage.toml) of the stage that the pictures show");
+        command->add_option("--leds", options->leds, "Set the number of LEDs of the bar")
             ->check(CLI::Range(SyncBar::least_leds, SyncBar::most_leds))
             ->capture_default_str();
         command
             ->add_option("--step-us", options->step_us,
-                         "a step of the bar; of a pattern on a screen, a refresh (16667)")
+                         "Set the time of one step of the bar in microseconds; for a page on a "
+                         "screen, that of one refresh (16667 at 60 Hz)")
             ->check(CLI::Range(10.0, 1e6))
             ->capture_default_str();
-        command->add_option("--limit-ms", options->limit_ms, "skew that is still in step")
+        command
+            ->add_option("--limit-ms", options->limit_ms,
+                         "Accept a skew up to this many milliseconds")
             ->check(CLI::Range(0.001, 1e4))
             ->capture_default_str();
-        command->add_option("--screen", options->screen,
-                            "write a page (HTML) that counts on a screen in place of a bar, and "
-                            "do nothing else");
-        command->add_option("-o,--output", options->output,
-                            "file for the result (default: stage.sync.yaml beside stage.toml)");
-        command->add_flag("--json", options->json, "write the result as JSON");
+        command->add_option(
+            "--screen", options->screen,
+            "Write a page (HTML) that counts on a screen instead of a bar, and end");
+        command->add_option(
+            "-o,--output", options->output,
+            "Write the result to this file (default: stage.sync.yaml beside stage.toml)");
+        command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};
 }

@@ -1,5 +1,11 @@
 #include "common/config/rig_config.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <unistd.h>
+
 #include "common/config/stream_keys.h"
 #include "common/config/toml_reader.h"
 
@@ -7,6 +13,17 @@ namespace vantage {
 namespace {
 
 constexpr int rig_config_version = 1;
+
+/// Returns the first label of this computer's host name in the characters of a rig's name, or an
+/// empty string. Rigs that run the installed file unchanged then have different names.
+std::string computer_name() {
+    std::array<char, 256> host{};
+    if (::gethostname(host.data(), host.size() - 1) != 0) return "";
+    std::string name(host.data());
+    name.resize(std::min(name.find('.'), name.size()));
+    std::erase_if(name, [](unsigned char c) { return !std::isalnum(c) && c != '-' && c != '_'; });
+    return name;
+}
 
 void read_source(TomlTable& table, RigConfig::Source& source) {
     table.read("kind", source.kind);
@@ -136,6 +153,7 @@ void read_keep(TomlTable& table, RigConfig::Keep& keep) {
 RigConfig load_rig_config(const std::filesystem::path& path) {
     RigConfig config;
     config.file = path;
+    config.name = computer_name();
     read_toml_file(path, rig_config_version, [&](TomlTable& top) {
         read_stream_name(top, config.name);
         std::string calibration;

@@ -13,7 +13,7 @@ namespace vantage {
 /// wrong types and values out of range are errors that name file, line and the nearest known key.
 struct RigConfig {
     std::filesystem::path file;  ///< the file it was loaded from; empty: none
-    std::string name;            ///< unique on the stage: letters, digits, '-', '_'
+    std::string name;            ///< unique on the stage; default: this computer's host name
 
     struct Source {
         std::string kind = "virtual";  ///< virtual | files | v4l2 | libcamera

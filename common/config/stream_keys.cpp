@@ -10,7 +10,7 @@ namespace vantage {
 
 void read_stream_name(TomlTable& table, std::string& name) {
     constexpr std::size_t max_length = 64;
-    table.require("name");
+    if (name.empty()) table.require("name");
     table.read("name", name);
     if (!table.has("name")) return;
     const bool fits = std::all_of(name.begin(), name.end(), [](unsigned char c) {

@@ -265,8 +265,9 @@ struct StageReceiver::Impl {
         auto [address, reason] = reach(rig.endpoint, probe_limit);
         if (reason.empty())
             reason = fmt::format(
-                "something at {} accepts connections but does not speak Vantage's "
-                "protocol",
+                "something at {} accepts connections but does not speak Vantage's protocol: the "
+                "rig or "
+                "this host is stopped or busy, or another program has the port",
                 rig.endpoint.text());
         const std::lock_guard lock(mutex);
         if (!address.empty()) rig.answering_address = std::move(address);

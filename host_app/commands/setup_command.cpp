@@ -121,8 +121,10 @@ std::string fault_of(const Session& session, const PairOffer& offer) {
     for (const StageConfig::Rig& rig : session.stage.config().rigs)
         if (rig.name == offer.rig && rig.public_key != offer.public_key)
             return fmt::format(
-                "{} has a rig '{}' with another key; if the rig was reinstalled, remove its table "
-                "from the file and use --add",
+                "{} has a rig '{}' with another key; if this is another rig, give it another "
+                "'name' in "
+                "its rig.toml; if it was reinstalled, remove its table from the stage file and use "
+                "--add",
                 file, offer.rig);
     if (!session.knows(offer.rig) && !session.may_add)
         return fmt::format("{} exists and is not changed; use --add to add {} to it", file,

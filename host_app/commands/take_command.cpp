@@ -278,6 +278,18 @@ void export_edit_list(const TakeOptions& options) {
             list.offline > 0 ? fmt::format(", {} without a film", list.offline) : "");
 }
 
+/// Describes what an export has written, such as "3 instants, 12 existed already".
+std::string sentence_of(const ExportStats& stats, std::string_view things) {
+    std::string sentence =
+        stats.written == 0 && stats.there > 0
+            ? fmt::format("all {} {} existed already, nothing was written", stats.there, things)
+            : fmt::format("{} {}", stats.written, things);
+    if (stats.written > 0 && stats.there > 0)
+        sentence += fmt::format(", {} existed already", stats.there);
+    if (stats.damaged > 0) sentence += fmt::format(", {} damaged frames left out", stats.damaged);
+    return sentence;
+}
+
 void export_take(const TakeOptions& options) {
     if (options.form == "otio" || options.form == "edl") return export_edit_list(options);
     if (!options.clips.empty() || !options.media.empty() || options.from_zero)
@@ -306,13 +318,10 @@ void export_take(const TakeOptions& options) {
                          .dump()
                   << '\n';
     else
-        std::cout << fmt::format(
-            "{}: {} {}{}{}\n", options.output, stats.written,
-            is_film  ? "frames"
-            : format ? "instants"
-                     : "ticks of the camera",
-            stats.there > 0 ? fmt::format(", {} existed", stats.there) : "",
-            stats.damaged > 0 ? fmt::format(", {} damaged frames left out", stats.damaged) : "");
+        std::cout << fmt::format("{}: {}\n", options.output,
+                                 sentence_of(stats, is_film  ? "frames"
+                                                    : format ? "instants"
+                                                             : "ticks of the camera"));
 }
 
 void serve(const TakeOptions& options) {

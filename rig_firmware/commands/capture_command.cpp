@@ -89,18 +89,23 @@ CommandEntry capture_command_entry() {
         CLI::App* command = program.add_subcommand(
             "capture", "Keep raw pairs as pictures numbered by pulse, for vantage-calib");
         const auto options = std::make_shared<CaptureOptions>();
-        command->add_option("--config", options->config, "the rig's rig.toml")->required();
+        command->add_option("--config", options->config, "Read this rig file (rig.toml)")
+            ->required();
         command
-            ->add_option("--every", options->every,
-                         "keep pulses whose number this divides: the same ones at every rig")
+            ->add_option(
+                "--every", options->every,
+                "Keep the pulses whose number is a multiple of this: the same pulses at every rig")
             ->check(CLI::Range(1, 1000000))
             ->capture_default_str();
-        command->add_option("--count", options->count, "pairs to keep")
+        command->add_option("--count", options->count, "Keep this many pairs")
             ->check(CLI::Range(1, 10000))
             ->capture_default_str();
-        command->add_option("-o,--output", options->folder, "folder for left_N.png and right_N.png")
+        command
+            ->add_option(
+                "-o,--output", options->folder,
+                "Write left_N.png and right_N.png to this folder; N is the number of the pulse")
             ->required();
-        command->add_flag("--json", options->json, "write the result as one JSON object");
+        command->add_flag("--json", options->json, "Print the result as one JSON object");
         command->callback([options] { run(*options); });
     }};
 }

@@ -169,39 +169,45 @@ CommandEntry match_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<MatchOptions>();
         CLI::App* command = program.add_subcommand(
-            "match", "Disparity of one rectified pair, on the very path of the daemon");
+            "match", "Match one rectified pair, by the same code as the rig daemon");
         command->footer("Unknown is +infinity in a .pfm and 0 in a .png.\nMatchers:" +
                         matcher_summaries());
         command->add_option("left", options->left, "Left picture")->required();
         command->add_option("right", options->right, "Right picture")->required();
         command
             ->add_option("--disparities", options->disparities,
-                         fmt::format("Search range, 0 to N - 1 px; N is 1 to {}",
+                         fmt::format("Search disparities from 0 to N - 1 px; N is 1 to {}",
                                      MatchSettings::max_disparities))
             ->type_name("N")
             ->required();
-        command->add_option("--matcher", options->matcher, "Matcher (default: the preset's)");
-        command->add_option("--preset", options->preset, "fast, balanced or quality")
+        command->add_option("--matcher", options->matcher,
+                            "Select the matcher (default: the preset's); see below");
+        command
+            ->add_option("--preset", options->preset,
+                         "Select the preset: fast, balanced or quality")
             ->capture_default_str();
         command
-            ->add_option("-o,--output", options->output,
-                         "Disparities to write: .pfm (float, px) or .png (16-bit, 1/32 px)")
+            ->add_option(
+                "-o,--output", options->output,
+                "Write the disparities to this file: .pfm (float, px) or .png (16-bit, 1/32 px)")
             ->required();
-        command->add_option("--colormap", options->colour_map,
-                            "Also write them as colours, blue = 0, red = N, black = unknown");
+        command->add_option(
+            "--colormap", options->colour_map,
+            "Also write them as a picture in colours: blue is 0, red is N, black is unknown");
         command
             ->add_option("--confidence", options->confidence,
-                         "Also write how sure each pixel is: 8-bit .png, 255 = surest, 0 = unknown "
-                         "or filled")
+                         "Also write the confidence of each pixel as an 8-bit .png: 255 is the "
+                         "highest, 0 is unknown or filled")
             ->type_name("FILE");
-        command->add_flag("--no-fill", options->no_fill,
-                          "Leave unknown as unknown instead of filling it");
-        command->add_option("--repeats", options->repeats, "Matches that gpu_ms is the median of")
+        command->add_flag("--no-fill", options->no_fill, "Do not fill unknown pixels");
+        command
+            ->add_option("--repeats", options->repeats,
+                         "Match this many times; gpu_ms is the median")
             ->check(CLI::Range(1, 1000))
             ->capture_default_str();
         command->add_flag("--explain", options->explain,
-                          "Also report every GPU pass: time, traffic, operations, memory");
-        command->add_flag("--json", options->json, "Write the result as one JSON object");
+                          "Also print time, traffic, operations and memory of every GPU pass");
+        command->add_flag("--json", options->json, "Print the result as one JSON object");
         command->callback([options] { match(*options); });
     }};
 }

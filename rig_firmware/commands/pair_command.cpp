@@ -132,21 +132,24 @@ CommandEntry pair_command_entry() {
         auto options = std::make_shared<PairOptions>();
         CLI::App* command = program.add_subcommand(
             "pair",
-            "Open this rig for a host to pair with (vantage setup): both show a code, and who "
-            "compares it types it at both. Keys and the list of hosts are made and kept; rig.toml "
-            "is told of them");
+            "Open this rig for pairing with a host that runs vantage setup: both show a code, "
+            "which you compare and type at both ends. Keys and the list of hosts are stored beside "
+            "rig.toml and entered there");
         command->add_option("--config", options->config, "rig.toml")->capture_default_str();
-        command->add_option("--bind", options->bind, "Where hosts reach it while it is open")
+        command
+            ->add_option("--bind", options->bind,
+                         "Listen for hosts on this endpoint while the rig is open")
             ->capture_default_str();
-        command->add_option("--minutes", options->minutes, "How long it is open")
+        command
+            ->add_option("--minutes", options->minutes, "Keep the rig open for this many minutes")
             ->check(CLI::Range(0.01, 60.0))
             ->capture_default_str();
         command
-            ->add_option("--attempts", options->attempts, "How many hosts may try before it closes")
+            ->add_option("--attempts", options->attempts, "Close after this many failed attempts")
             ->check(CLI::Range(1, 10))
             ->capture_default_str();
         command->add_flag("--json", options->json,
-                          "Tell what happens as lines of JSON: open, code, failed, paired");
+                          "Print events as lines of JSON: open, code, failed, paired");
         command->callback([options] { pair(*options); });
     }};
 }

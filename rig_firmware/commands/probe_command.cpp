@@ -60,7 +60,7 @@ CommandEntry probe_command_entry() {
         auto* command = program.add_subcommand(
             "probe", "List this computer's cameras, GPIO, GPU and clocks, and name faults");
         auto as_json = std::make_shared<bool>(false);
-        command->add_flag("--json", *as_json, "for machines");
+        command->add_flag("--json", *as_json, "Print the result as JSON");
         command->callback([as_json] {
             const ProbeReport report;
             *as_json ? print_for_machines(report) : print_for_people(report);

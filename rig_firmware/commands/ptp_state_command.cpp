@@ -46,19 +46,20 @@ void keep_state(const PtpStateOptions& options) {
 CommandEntry ptp_state_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<PtpStateOptions>();
-        CLI::App* command = program.add_subcommand(
-            "ptp-state",
-            "Ask ptp4l every second how the clock stands, for a daemon that may not ask itself");
-        command->add_option("--ptp4l", options->socket, "ptp4l's management socket")
+        CLI::App* command =
+            program.add_subcommand("ptp-state",
+                                   "Ask ptp4l every second for the state of the clock, for a "
+                                   "daemon that has no access to ptp4l");
+        command->add_option("--ptp4l", options->socket, "Ask at this management socket of ptp4l")
             ->capture_default_str();
         command->add_option(
             "--write", options->file,
-            fmt::format("File for the newest answer (JSON), none where ptp4l gives none (default: "
-                        "{}; with --json: no file)",
+            fmt::format("Write the latest answer to this file (JSON), and remove it while ptp4l "
+                        "does not answer (default: {}; with --json: no file)",
                         ptp_state_file));
         command->add_flag("--json", options->json,
-                          "Write every answer as a line of JSON, too; port_state is null where "
-                          "ptp4l gives none");
+                          "Also print every answer as a line of JSON; port_state is null while "
+                          "ptp4l does not answer");
         command->callback([options] { keep_state(*options); });
     }};
 }

@@ -162,10 +162,10 @@ CommandEntry run_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<RunOptions>();
         CLI::App* command =
-            program.add_subcommand("run", "The rig daemon: capture, rectify, match, stream");
+            program.add_subcommand("run", "Run the rig daemon: capture, rectify, match, stream");
         command->add_option("--config", options->config, rig_file_help)->required();
         command->add_option("--frames", options->frames,
-                            "End after so many published frames (default: on SIGINT or SIGTERM)");
+                            "End after this many published frames (default: on SIGINT or SIGTERM)");
         command->add_flag("--json", options->json, "Print the closing summary as JSON");
         command->callback([options] { run(*options); });
     }};

@@ -86,31 +86,37 @@ CommandEntry sync_bar_command_entry() {
             "sync-bar",
             "Count on a bar of LEDs at GPIO lines, for vantage-calib sync, until Ctrl-C");
         command->add_option("--chip", options->chip,
-                            "label of the GPIO chip: pinctrl-rp1 on a Raspberry Pi 5");
+                            "Set the label of the GPIO chip: pinctrl-rp1 on a Raspberry Pi 5");
         command
             ->add_option("--lines", options->lines,
-                         "its lines by name, of the fastest LED first: GPIO5,GPIO6,... (default: "
-                         "12 that nothing else of a rig uses)")
+                         "Set the lines by name, that of the fastest LED first: GPIO5,GPIO6,... "
+                         "(default: 12 lines that a rig does not use otherwise)")
             ->delimiter(',');
-        command->add_option("--leds", options->leds, "LEDs of the bar")
+        command->add_option("--leds", options->leds, "Set the number of LEDs of the bar")
             ->check(CLI::Range(SyncBar::least_leds, SyncBar::most_leds))
             ->capture_default_str();
-        command->add_option("--step-us", options->step_us, "a step of the count")
+        command
+            ->add_option("--step-us", options->step_us, "Set the time of one step in microseconds")
             ->check(CLI::Range(10.0, 1e6))
             ->capture_default_str();
-        command->add_flag("--active-low", options->active_low, "an LED is lit at the low level");
-        command->add_option("--seconds", options->seconds, "end after so long (default: Ctrl-C)")
+        command->add_flag("--active-low", options->active_low,
+                          "Drive LEDs that are lit at the low level");
+        command
+            ->add_option("--seconds", options->seconds,
+                         "End after this many seconds (default: Ctrl-C)")
             ->check(CLI::Range(0.0, 1e6));
         command
-            ->add_option("--spin-us", options->spin_us,
-                         "busy waiting before every step, against late wake-ups")
+            ->add_option(
+                "--spin-us", options->spin_us,
+                "Wait busily for this many microseconds before every step, against late wake-ups")
             ->check(CLI::Range(0.0, 1e4))
             ->capture_default_str();
-        command->add_option("--priority", options->priority, "SCHED_FIFO priority; 0: none")
+        command
+            ->add_option("--priority", options->priority, "Set the SCHED_FIFO priority; 0 is none")
             ->check(CLI::Range(0, 99))
             ->capture_default_str();
         command->add_flag("--pretended", options->pretended,
-                          "without lines: measure the timing of this computer");
+                          "Use no GPIO lines, but measure the timing of this computer");
         command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};

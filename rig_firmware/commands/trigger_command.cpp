@@ -75,14 +75,14 @@ void run(const TriggerOptions& options) {
 CommandEntry trigger_command_entry() {
     return {[](CLI::App& program) {
         auto options = std::make_shared<TriggerOptions>();
-        CLI::App* command =
-            program.add_subcommand("trigger", "Pulses only; reports how late they were");
+        CLI::App* command = program.add_subcommand(
+            "trigger", "Send trigger pulses only, and print how late they were");
         command->add_option("--config", options->config, rig_file_help)->required();
-        command->add_option("--count", options->count, "Pulses to send")
+        command->add_option("--count", options->count, "Send this many pulses")
             ->required()
             ->check(CLI::PositiveNumber);
         command->add_flag("--pretended", options->pretended,
-                          "Without a line: measure the timing of this computer");
+                          "Send no pulse to a GPIO line, but measure the timing of this computer");
         command->add_flag("--json", options->json, "Print the result as JSON");
         command->callback([options] { run(*options); });
     }};

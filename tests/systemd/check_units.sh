@@ -10,7 +10,8 @@ command -v systemd-analyze >/dev/null || skip "systemd-analyze is not installed 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # The daemon is where it was built, and linuxptp need not be here.
-for unit in "$units"/*.service; do
+for unit in "$units"/*.service "$units"/host/*.service; do
+  [ -e "$unit" ] || continue
   sed -e "s#^ExecStart=/usr/bin/vantage-rig#ExecStart=\"$rig\"#" -e 's#^ExecStart=/usr/sbin/\S*#ExecStart=/bin/true#' "$unit" \
     >"$work/$(basename "$unit")"
 done

@@ -107,6 +107,8 @@ std::string sound_text(const SoundState& sound) {
 }
 
 std::string output_text(const OutputState& output) {
+    if (output.offered == 0 && output.failures == 0)
+        return fmt::format("output: {} was not started\n", output.name);
     std::string text = fmt::format("output: {}{}{}, {}, {:.1f} MB, {} dropped because it was busy",
                                    output.name, output.encoder.empty() ? "" : " by ",
                                    output.encoder, counted(output.pictures, "frame"),

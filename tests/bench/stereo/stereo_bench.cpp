@@ -192,10 +192,11 @@ void print_quality(const ShaderLibrary& library, const std::string& matcher,
         held_out.add(q);
         (scene.use == SceneUse::held_out ? photographs : generated).add(q);
     }
-    if (photographs.scenes() > 0 && generated.scenes() > 0) held_out.print("held-out scenes");
-    photographs.print("held-out photographs");
-    generated.print("held-out generated scenes");
-    tuning.print("scenes of tuning");
+    if (photographs.scenes() > 0 && generated.scenes() > 0)
+        held_out.print("scenes that tuning did not use");
+    photographs.print("photographs that tuning did not use");
+    generated.print("generated scenes");
+    tuning.print("scenes that tuning used");
     fmt::print(
         "\nThe same for pixels that only the left camera sees, which each matcher fills.\n\n"
         "| scene | 3WAY | HH4 | quality | balanced | fast |\n"

@@ -85,6 +85,17 @@ class CheckCommandTest : public testing::Test {
 StereoCalibration CheckCommandTest::rigs_[2];
 VirtualStereoFrame CheckCommandTest::frames_[2];
 
+TEST_F(CheckCommandTest, NamesACalibrationFileThatIsMissing) {
+    const std::string file = (folder_.path() / "world" / "A.yaml").string(),
+                      stage = (folder_.path() / "stage.toml").string();
+    std::ofstream(stage)
+        << "version = 1\n[[rigs]]\nname = \"A\"\nendpoint = \"tcp://127.0.0.1:9\"\n";
+    const ProgramResult result =
+        run_to_end(VANTAGE_CALIB, {"check", "--live", stage, "--rig", "A=" + file});
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, HasSubstr("cannot read " + file + ": "));
+}
+
 TEST_F(CheckCommandTest, finds_a_good_stage_good_and_keeps_a_history) {
     write(rigs_[1]);
     const std::string html = folder_.path() / "health.html", history = folder_.path() / "h.jsonl";

@@ -81,6 +81,20 @@ TEST_F(RigTroubles, AreReportedWithTheReasonOfEachRig) {
     EXPECT_THAT(result.out, HasSubstr("signal: NO SIGNAL"));
 }
 
+TEST_F(RigTroubles, SayThatAStoppedRigMayBeTheReason) {
+    const auto north = start_rig("north", ports_.first, 5);
+    wait_for(*north, "publishing on");
+    north->send_signal(SIGSTOP);
+    write_stage(endpoint(ports_.first), endpoint(ports_.second));
+    const ProgramResult result = status(5);
+    north->send_signal(SIGCONT);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.out,
+                HasSubstr("north: disconnected: something at " + endpoint(ports_.first) +
+                          " accepts connections but does not speak Vantage's protocol: the rig or "
+                          "this host is stopped or busy"));
+}
+
 TEST_F(RigTroubles, WithKeysNameTheWrongKey) {
     const CurveKeys rig_keys = generate_curve_keys();
     write_key_file(file("rig.key"), rig_keys);

@@ -1,7 +1,7 @@
 # Refuses includes that run against the layers of the tree at ROOT:
 #   rig_firmware, host_app and calib_tools see common and never each other; common sees none of them;
 #   inside common, base, image and geometry know no OpenGL, and gl knows nothing of rigs, wires or stages.
-#   inside host_app, a room includes rooms of lower floors and of its own, never of higher ones.
+#   inside host_app, a room includes rooms of lower layers and of its own, never of higher ones.
 # Includes are rooted at the repository, so a path says its layer.
 set(common_rule "rig_firmware|host_app|calib_tools")
 set(no_gl_rule "common/gl|common/wire|common/config|common/virtual_stage")
@@ -30,36 +30,36 @@ foreach(rule ${rules})
     endforeach()
   endforeach()
 endforeach()
-# The floors of host_app, lowest first; rooms that share a line of '+' share a floor. The desk's feed is fed by the session.
-set(floors
+# The layers of host_app, lowest first; rooms that are joined by "+" share a layer. The desk's feed is fed by the session.
+set(layers
   frames replay flight ltc views surfaces background refine foreground pipeline baked synthesis points+fused+gallery output sound
   control camera_paths takes view_sets programme exports desk session+desk/feed+metrics+web setup relay commands)
-set(floor_count 0)
-foreach(floor ${floors})
-  string(REPLACE "+" ";" floor_rooms "${floor}")
-  foreach(room ${floor_rooms})
-    set(floor_of_${room} ${floor_count})
+set(layer_count 0)
+foreach(layer ${layers})
+  string(REPLACE "+" ";" layer_rooms "${layer}")
+  foreach(room ${layer_rooms})
+    set(layer_of_${room} ${layer_count})
   endforeach()
-  math(EXPR floor_count "${floor_count} + 1")
+  math(EXPR layer_count "${layer_count} + 1")
 endforeach()
 
-function(host_floor path result)
+function(host_layer path result)
   string(REGEX MATCH "^host_app/(desk/feed|[a-z0-9_]+)/" whole "${path}")
-  set(${result} "${floor_of_${CMAKE_MATCH_1}}" PARENT_SCOPE)
+  set(${result} "${layer_of_${CMAKE_MATCH_1}}" PARENT_SCOPE)
 endfunction()
 
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/host_app/*/*.h ${ROOT}/host_app/*/*.cpp)
 foreach(file ${files})
   math(EXPR checked "${checked} + 1")
-  host_floor(${file} own)
+  host_layer(${file} own)
   if("${own}" STREQUAL "")
-    list(APPEND faults "${file}: its room has no floor in tests/unit/layers/check_includes.cmake")
+    list(APPEND faults "${file}: its room has no layer in tests/unit/layers/check_includes.cmake")
     continue()
   endif()
   file(STRINGS ${ROOT}/${file} includes REGEX "^[ \t]*#[ \t]*include[ \t]*\"host_app/[^\"]*/[^\"/]*\"")
   foreach(line ${includes})
     string(REGEX MATCH "host_app/[^\"]*" included "${line}")
-    host_floor(${included} other)
+    host_layer(${included} other)
     if("${other}" STREQUAL "" OR other GREATER own)
       list(APPEND faults "${file}: ${line}")
     endif()

@@ -1,8 +1,12 @@
 #include "common/config/rig_config.h"
 
+#include <array>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/common/config/config_text.h"
 
@@ -136,10 +140,19 @@ TEST_F(RigConfigTest, NamesTheLineAndTheNearestKeyOfAnUnknownKey) {
               "calibration, source, virtual_rig, trigger, match, stream, keep");
 }
 
-TEST_F(RigConfigTest, ReportsAMistypedKeyBeforeTheMissingOne) {
+TEST_F(RigConfigTest, ReportsAMistypedNameAndDoesNotReplaceIt) {
     EXPECT_EQ(fault("version = 1\nnaem = 'a'\n"),
               "config.toml:2: there is no key 'naem'; the nearest is 'name'");
-    EXPECT_EQ(fault("version = 1\n"), "config.toml:1: 'name' is missing");
+}
+
+/// Two rigs that run the installed file must not have the same name.
+TEST_F(RigConfigTest, ARigWithoutANameHasThatOfItsComputer) {
+    std::array<char, 256> host{};
+    ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
+    const std::string name(host.data());
+    EXPECT_EQ(load("version = 1\n").name, name.substr(0, name.find('.')));
+    EXPECT_EQ(load_rig_config(source_folder() / "hw_config/rig.toml").name,
+              load("version = 1\n").name);
 }
 
 TEST_F(RigConfigTest, NamesTheWantedType) {

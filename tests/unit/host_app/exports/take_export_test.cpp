@@ -406,6 +406,9 @@ TEST_F(TakeExportTest, TwoProcessesWriteTheSameBytes) {
         ++files;
     }
     EXPECT_EQ(files, 16u) << "15 moments and what they are of";
+    // An export that is complete says so.
+    EXPECT_EQ(run_to_end(VANTAGE_PROGRAM, arguments("parts")).out,
+              path("parts").string() + ": all 15 instants existed already, nothing was written\n");
     const std::filesystem::directory_iterator parts(path("parts"));
     EXPECT_EQ(static_cast<std::size_t>(std::distance(begin(parts), end(parts))), files);
 }

@@ -82,6 +82,18 @@ TEST(LiveReport, ReportsWhyARigIsDisconnectedAndItsOutages) {
     EXPECT_EQ(to_json(report)["rigs"][0]["outages"]["total_s"], 9.25);
 }
 
+TEST(LiveReport, SaysThatAnOutputWasNotStarted) {
+    LiveReport report;
+    OutputState later, now;
+    later.name = "film later.mkv?start=off";
+    now.name = "film now.mkv";
+    now.offered = now.pictures = 2;
+    report.outputs = {later, now};
+    const std::string text = to_text(report);
+    EXPECT_THAT(text, HasSubstr("output: film later.mkv?start=off was not started\n"));
+    EXPECT_THAT(text, HasSubstr("output: film now.mkv, 2 frames"));
+}
+
 TEST(LiveReport, ExplainsEveryHeadingOfItsTables) {
     LiveReport report;
     report.rigs.push_back({.status = good_rig()});
