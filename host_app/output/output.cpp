@@ -7,6 +7,7 @@
 #include "common/base/this_thread.h"
 #include "common/base/time/pulse_grid.h"
 #include "common/base/time/time.h"
+#include "common/base/trace/trace.h"
 
 namespace vantage {
 namespace {
@@ -85,6 +86,7 @@ void Output::want_no_more() {
 }
 
 void Output::take(const ProgrammePicture& picture) {
+    const TraceSpan span("hand to output");
     std::string timecode = timecode_ && picture.set ? timecode_->of(*picture.set) : std::string();
     const std::lock_guard lock(mutex_);
     if (!is_wanted_) return;
@@ -129,6 +131,7 @@ bool Output::is_wanted() const {
 
 void Output::run() {
     name_this_thread("output");
+    name_trace_track("output " + plan_.name);
     std::chrono::nanoseconds rest = first_rest;
     for (;;) {
         {
@@ -193,6 +196,9 @@ void Output::serve() {
 }
 
 void Output::write(OutputTarget& target, const Item& item) {
+    TraceSpan span("encode and write");
+    span.with("tick", static_cast<std::int64_t>(item.tick))
+        .in(TraceId::of_tick(item.tick), TraceFlow::passes);
     if (!first_tick_) first_tick_ = item.tick;
     const MonotonicTime start = MonotonicClock::now();
     if (item.tick > *first_tick_) hear(target, item.tick - 1);

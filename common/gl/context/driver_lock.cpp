@@ -9,18 +9,26 @@
 #include <dlfcn.h>
 #include <pthread.h>
 
+#include "common/base/trace/trace.h"
+
 namespace vantage {
 namespace {
 
 /// The driver's mutex if this thread holds it. Thread-local, like the current context.
 thread_local std::mutex* held = nullptr;
 
+void lock(std::mutex& driver) {
+    TraceSpan span("driver lock");
+    driver.lock();
+    span.end_unless_shorter(std::chrono::microseconds(100));
+}
+
 }  // namespace
 
 DriverLock::DriverLock(std::mutex* driver) : driver_(driver) {
     assert(!held);
     if (!driver_) return;
-    driver_->lock();
+    lock(*driver_);
     held = driver_;
 }
 
@@ -36,7 +44,7 @@ DriverLock::Pause::Pause() : driver_(std::exchange(held, nullptr)) {
 
 DriverLock::Pause::~Pause() {
     if (!driver_) return;
-    driver_->lock();
+    lock(*driver_);
     held = driver_;
 }
 
