@@ -9,6 +9,8 @@ import argparse
 import collections
 import json
 
+INPUT = 4  # TraceId::of_input() in common/base/trace/trace.h
+
 
 def load(path):
     with open(path, encoding="utf-8") as file:
@@ -42,44 +44,19 @@ def steps(spans, tracks):
 
 
 def ways(spans, flows):
-    """The inputs with their way: a list of (arrival, sample, picture or reprojection, hand-over) as spans."""
+    """The way of each input that changed a picture: its arrival in us, the camera's sample and the hand-over of the picture, as spans."""
     by_place = {(span["tid"], span["ts"], span["name"]): span for span in spans}
-
-    def of(flow, names):
-        for name in names:
-            span = by_place.get((flow["tid"], flow["ts"], name))
-            if span:
-                return span
-        return None
-
-    members = collections.defaultdict(list)
+    members = collections.defaultdict(dict)
     for flow in flows:
-        members[flow["id"]].append(flow)
-    ends = []  # of camera steps: (number, hand-over)
-    samples = {}
-    for number, flow_list in members.items():
-        for flow in flow_list:
-            if number.startswith("0x2") and flow["ph"] == "f":
-                ends.append((int(number, 16), of(flow, ["hand over"])))
-            if number.startswith("0x2") and flow["ph"] == "s":
-                sample = of(flow, ["camera sample"])
-                if sample:
-                    samples[sample["ts"], sample["tid"]] = number
-    ends = sorted((number, span) for number, span in ends if span)
-    found = []
-    for number, flow_list in members.items():
-        if not number.startswith("0x4"):
-            continue
-        arrivals = [span for span in (of(flow, ["operator input", "wheel report"]) for flow in flow_list if flow["ph"] == "s") if span]
-        sample = next((span for span in (of(flow, ["camera sample"]) for flow in flow_list if flow["ph"] == "f") if span), None)
-        if not sample or not arrivals:
-            continue
-        step = samples.get((sample["ts"], sample["tid"]))
-        handed = [span for number_of_end, span in ends if step and number_of_end >= int(step, 16) and span["ts"] >= sample["ts"]]
-        if handed:
-            arrival_us = (int(number, 16) & (1 << 56) - 1) / 1e3
-            found.append((arrival_us, sample, min(handed, key=lambda span: span["ts"])))
-    return found
+        for name in ("camera sample", "hand over"):
+            span = by_place.get((flow["tid"], flow["ts"], name))
+            if span and int(flow["id"], 16) >> 56 == INPUT:
+                members[int(flow["id"], 16)][name] = span
+    return [
+        ((number & (1 << 56) - 1) / 1e3, found["camera sample"], found["hand over"])
+        for number, found in members.items()
+        if len(found) == 2
+    ]
 
 
 def main():

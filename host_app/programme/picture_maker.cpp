@@ -112,7 +112,9 @@ void PictureMaker::run() {
 }
 
 void PictureMaker::make_pictures(const ContextGroup::Member& member) {
-    const DriverLock turn(contexts_->driver());
+    const DriverLock turn(contexts_->driver(), manner_ == Manner::at_once
+                                                   ? DriverLock::Urgency::urgent
+                                                   : DriverLock::Urgency::usual);
     const CurrentContext current(*member.context);
     require_context("a renderer was set up");
     std::optional<SlicedDrawing> slices;

@@ -187,7 +187,7 @@ bool Programme::take_step(double time_s, MonotonicTime now) {
     CameraStep step = camera_source_.step(time_s, transport().pulse());
     ++step_;
     sampling.in(TraceId::of_step(step_), TraceFlow::begins);
-    if (step.input) sampling.in(TraceId::of_input(*step.input), TraceFlow::ends);
+    if (step.input) sampling.in(TraceId::of_input(*step.input), TraceFlow::passes);
     instant_ = instants_.newest();
     const std::optional<PastFrameSets::Span> span = instants_.past_span();
     take_time(step, time_s, span);
@@ -439,15 +439,17 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
                           .due = due,
                           .now = now,
                           .faults = synthesisers_.faults()});
+    std::optional<MonotonicTime> input;
     {
         const std::lock_guard lock(mutex_);
         state_.picture = frames_.handed;
         if (latency_ms) state_.latency_ms = *latency_ms;
         if (reprojected || is_new)
-            input_latency_.showed(
+            input = input_latency_.showed(
                 frames_.handed->job.step,
                 reprojected ? reprojected->rendered->job.step : frames_.shown->job.step, now);
     }
+    if (input) span.in(TraceId::of_input(*input), TraceFlow::ends);
     give_to_sinks(*frames_.handed, passed_ticks, due);
 }
 

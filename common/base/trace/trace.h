@@ -45,7 +45,7 @@ struct TraceEvent {
     const char* value_name = nullptr;  ///< null: it has no value
     std::int64_t value = 0;
     std::int64_t begin_ns = 0, length_ns = 0;  ///< of MonotonicClock
-    std::array<Flow, 3> flows{};
+    std::array<Flow, 4> flows{};
 };
 
 namespace trace_detail {
@@ -73,7 +73,7 @@ class TraceSpan {
         event_.value = value;
         return *this;
     }
-    /// Makes the span a part of a flow; of three at most.
+    /// Makes the span a part of a flow; of four at most.
     TraceSpan& in(TraceId flow, TraceFlow place) {
         for (TraceEvent::Flow& free : event_.flows) {
             if (free.id != 0) continue;

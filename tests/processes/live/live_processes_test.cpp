@@ -355,7 +355,7 @@ TEST_F(LiveProcesses, TraceEveryStageFromTheOperatorToTheOutputs) {
     const nlohmann::json summary = nlohmann::json::parse(result.out);
     EXPECT_GE(spans["hand over"], summary["new_pictures"].get<int>());
     // The way of the input, of the camera's step, of the tick and of the frame sets.
-    EXPECT_GT(flows_like(events, '4', "s+f"), 0);
+    EXPECT_GT(flows_like(events, '4', "s+t+f"), 0);
     EXPECT_GT(flows_like(events, '2', "st+f"), 0);
     EXPECT_GT(flows_like(events, '3', "st"), 0);
     EXPECT_GT(flows_like(events, '1', "st{2,}f+"), 0);
