@@ -19,7 +19,22 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class ShowFaults : public TwoRigShow {};
+class ShowFaults : public TwoRigShow {
+  protected:
+    /// Ends the host. `restarts` is how often the far rig was started again.
+    void end_and_expect_trouble_of_far_alone(int restarts) {
+        host_->send_signal(SIGINT);
+        const ProgramResult result = host_->wait();
+        const nlohmann::json summary = nlohmann::json::parse(result.out);
+        expect_ticks_held(summary);
+        const nlohmann::json far = summary["rigs"][0], near = summary["rigs"][1];
+        EXPECT_EQ(far["outages"]["restarts"], restarts);
+        EXPECT_EQ(near["outages"]["count"], 0);
+        EXPECT_EQ(near["link"]["lost"], 0) << "the rig beside has noticed nothing";
+        expect_balanced(far);
+        expect_balanced(near);
+    }
+};
 
 TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     start_host({"--seconds", "600"});
@@ -89,16 +104,7 @@ TEST_F(ShowFaults, ARigThatIsThrottledLosesOnlyItsOwnFramesAndIsNamed) {
     EXPECT_LE(sets_until_far_is_back([&] { group.limit_processor(0); }), sets_to_recover)
         << host_->err();
 
-    host_->send_signal(SIGINT);
-    const ProgramResult result = host_->wait();
-    const nlohmann::json summary = nlohmann::json::parse(result.out);
-    expect_ticks_held(summary);
-    const nlohmann::json far = summary["rigs"][0], near = summary["rigs"][1];
-    EXPECT_EQ(far["outages"]["restarts"], 0);
-    EXPECT_EQ(near["outages"]["count"], 0);
-    EXPECT_EQ(near["link"]["lost"], 0) << "the rig beside has noticed nothing";
-    expect_balanced(far);
-    expect_balanced(near);
+    end_and_expect_trouble_of_far_alone(0);
     far_->send_signal(SIGTERM);
     far_->wait();
 }
@@ -149,16 +155,7 @@ TEST_F(ShowFaults, ARigThatTheKernelKillsForMemoryIsGoneAloneAndComesBack) {
     wait_for(*far_, "publishing on");
     EXPECT_LE(sets_until_far_is_back([] {}), sets_to_recover) << host_->err();
 
-    host_->send_signal(SIGINT);
-    const ProgramResult result = host_->wait();
-    const nlohmann::json summary = nlohmann::json::parse(result.out);
-    expect_ticks_held(summary);
-    const nlohmann::json far = summary["rigs"][0], near = summary["rigs"][1];
-    EXPECT_EQ(far["outages"]["restarts"], 1);
-    EXPECT_EQ(near["outages"]["count"], 0);
-    EXPECT_EQ(near["link"]["lost"], 0) << "the rig beside has noticed nothing";
-    expect_balanced(far);
-    expect_balanced(near);
+    end_and_expect_trouble_of_far_alone(1);
 }
 
 TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {

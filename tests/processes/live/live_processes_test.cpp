@@ -70,6 +70,21 @@ class LiveProcesses : public testing::Test {
             usleep(10'000);
     }
 
+    /// Turns the camera by 18 degrees from the first rig's position, in a window of 640x360.
+    static void turn_by_mouse_and_quit(const VirtualScreen& screen, const ChildProgram& host) {
+        // The camera is at the first rig once the stage is known.
+        wait_for(host, "azimuth -12.0");
+        screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
+        // Show the picture alone, so that it is as wide as the window.
+        screen.operator_input({"key", "Tab", "sleep", "1"});
+        // Drag a tenth of the picture's width to the right: the stage turns by 18 degrees
+        // from the first rig's position.
+        screen.operator_input({"mousemove", "320", "120", "mousedown", "1", "mousemove", "384",
+                               "120", "mouseup", "1"});
+        wait_for(host, "azimuth -30.0");
+        screen.operator_input({"key", "Escape", "Escape"});
+    }
+
     TemporaryFolder folder_;
     std::pair<int, int> ports_ = two_free_ports();
     std::vector<std::unique_ptr<ChildProgram>> rigs_;
@@ -277,17 +292,7 @@ TEST_F(LiveProcesses, FollowTheMouseInAWindowUntilEscape) {
                       {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json",
                        "--no-jog", "--snapshot", file("screen.png"), "--seconds", "200"},
                       host_folder.path(), {screen.environment()});
-    // The camera is at the first rig once the stage is known.
-    wait_for(host, "azimuth -12.0");
-    screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
-    // Show the picture alone, so that it is as wide as the window.
-    screen.operator_input({"key", "Tab", "sleep", "1"});
-    // Drag a tenth of the picture's width to the right: the stage turns by 18 degrees
-    // from the first rig's position.
-    screen.operator_input(
-        {"mousemove", "320", "120", "mousedown", "1", "mousemove", "384", "120", "mouseup", "1"});
-    wait_for(host, "azimuth -30.0");
-    screen.operator_input({"key", "Escape", "Escape"});
+    turn_by_mouse_and_quit(screen, host);
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);
@@ -326,13 +331,7 @@ TEST_F(LiveProcesses, TraceEveryStageFromTheOperatorToTheOutputs) {
         {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json", "--no-jog",
          "--record", file("film.mkv"), "--trace", file("trace.json"), "--seconds", "200"},
         host_folder.path(), {screen.environment()});
-    wait_for(host, "azimuth -12.0");
-    screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
-    screen.operator_input({"key", "Tab", "sleep", "1"});
-    screen.operator_input(
-        {"mousemove", "320", "120", "mousedown", "1", "mousemove", "384", "120", "mouseup", "1"});
-    wait_for(host, "azimuth -30.0");
-    screen.operator_input({"key", "Escape", "Escape"});
+    turn_by_mouse_and_quit(screen, host);
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
     const nlohmann::json events =

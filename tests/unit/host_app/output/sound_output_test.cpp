@@ -286,7 +286,7 @@ TEST_F(SoundStreamTest, AStreamThatIsKeptWholeIsInStepWithThePicture) {
         const AVPacket* packet = encoder.next();
         ASSERT_TRUE(packet);
         target.write_encoded({.packet = {packet, [](const AVPacket*) {}}, .tick = tick},
-                    static_cast<std::int64_t>(tick));
+                             static_cast<std::int64_t>(tick));
         target.hear(*given.sound, static_cast<std::int64_t>(tick));
     }
     target.finish();
