@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # Plays the demo stage in a window with everything at once, and holds it to account: memory, threads and files stay bounded,
 # outputs stay on, every frame is accounted for.
-#   tools/whole_show.sh [SECONDS, default 1800]
+#   tools/whole_show.sh [SECONDS, default 1800] [TRACE]
 # On air: a film in segments, SRT with a receiver, UDP, a pipe that ffmpeg reads, the camera as FreeD, time code as sound; with
 # sound from a file. A take runs, is ended and begun again. Operators over OSC, RossTalk, TSL and the keyboard fly, mark, freeze,
 # play clips and a list, fly and cut a preview, go back to live; Prometheus asks. Needs a built Vantage, Xvfb, xdotool, oscsend,
-# srt-live-transmit, ffmpeg, curl and jq. Closes with a line `N passed, N failed`.
+# srt-live-transmit, ffmpeg, curl and jq. TRACE is a file for the trace of the host (tools/trace.py). Closes with a line `N passed, N failed`.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 . tools/demo_stage.sh
-seconds=${1:-1800}
+seconds=${1:-1800} trace=${2:-}
 # A round of all that operators do takes a minute, and every third of the time is to have one.
 [[ $seconds =~ ^[0-9]+$ ]] && [ "$seconds" -ge 180 ] || {
   echo "whole_show.sh: '$seconds' is no number of seconds of at least 180" >&2
@@ -41,7 +41,7 @@ build/release/bin/vantage live --stage "$out/demo/stage.toml" --past-mb 24 --rat
   --output "$out/film.mkv?segment=60s" --output "srt://127.0.0.1:$srt?mode=listener" --output "udp://127.0.0.1:$udp" \
   --output 'pipe:5?format=y4m' --output "ltc:$out/code.wav" --output "freed://127.0.0.1:$camera" \
   --control "osc://:$osc" --control "rosstalk://:$panel" --control "tsl://:$mixer?address=5" --control "freed://:$tracker" \
-  --metrics "http://:$metrics" >"$out/show.json" 2>"$out/live.log" 5>"$out/pipe" &
+  ${trace:+--trace "$trace"} --metrics "http://:$metrics" >"$out/show.json" 2>"$out/live.log" 5>"$out/pipe" &
 host=$!
 until grep -qs ' frames, ' "$out/live.log"; do
   sleep 0.2

@@ -6,6 +6,7 @@
 #include <GLES3/gl31.h>
 
 #include "common/base/time/time.h"
+#include "common/base/trace/trace.h"
 #include "common/gl/context/driver_lock.h"
 #include "common/gl/objects/fence.h"
 
@@ -59,8 +60,10 @@ const SlicedDrawing* SlicedDrawing::current() { return current_slicing; }
 void SlicedDrawing::give_way() const {
     const DriverLock::Pause pause;
     if (way_) {
+        TraceSpan span("give way");
         const MonotonicTime start = MonotonicClock::now();
         way_->give_way(may_wait_);
+        span.end_unless_shorter(std::chrono::microseconds(100));
         if (least_share_ > 0)
             may_wait_ = std::max(may_wait_ - (MonotonicClock::now() - start), 0ns);
     }

@@ -20,6 +20,7 @@
 #include "common/base/this_thread.h"
 #include "common/base/time/kernel_clock.h"
 #include "common/base/time/time.h"
+#include "common/base/trace/trace.h"
 #include "common/config/endpoint.h"
 #include "common/receive/frame_set_assembler.h"
 #include "common/receive/outage_counter.h"
@@ -189,6 +190,9 @@ struct StageReceiver::Impl {
             rig->link.watch(now);
             // One frame at a time, so that a rig that floods this host does not delay the others.
             if (std::optional<RigLink::Delivery> delivery = rig->link.receive(now)) {
+                TraceSpan span("receive");
+                span.in(TraceId::of_rig_frame(number, delivery->message.counters.sent),
+                        TraceFlow::begins);
                 if (tap)
                     tap({number, delivery->frame, delivery->message.counters, delivery->arrival,
                          delivery->arrival_tai});
@@ -317,6 +321,8 @@ struct StageReceiver::Impl {
 
     void decode(std::size_t number, FrameDecoder& decoder, const RigLink::Delivery& delivery) {
         Rig& rig = *rigs[number];
+        TraceSpan span("decode");
+        span.in(TraceId::of_rig_frame(number, delivery.message.counters.sent), TraceFlow::ends);
         const MonotonicTime start = MonotonicClock::now();
         const PackedFrame& packed = *delivery.frame;
         auto frame = std::make_shared<RigFrame>(
@@ -363,6 +369,9 @@ struct StageReceiver::Impl {
     /// Precondition: mutex is held.
     void collect_closed(MonotonicTime now) {
         for (FrameSet& set : assembler.take_closed(now)) {
+            TraceSpan span("frame set");
+            span.with("rigs", set.present())
+                .in(TraceId::of_frame_set(set.trigger_index), TraceFlow::begins);
             for (std::size_t i = 0; i < rigs.size(); ++i)
                 rigs[i]->status.in_frame_sets += set.slots[i].frame != nullptr;
             ++sets;

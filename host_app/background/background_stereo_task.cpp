@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/base/this_thread.h"
+#include "common/base/trace/trace.h"
 
 namespace vantage {
 
@@ -16,6 +17,7 @@ void BackgroundStereoTask::begin(std::vector<BackgroundView> views, Manner manne
         result_ = std::async(std::launch::async, [match = std::move(match)] {
             name_this_thread("bg stereo");
             make_this_thread_idle();
+            const TraceSpan span("background stereo");
             return match();
         });
 }

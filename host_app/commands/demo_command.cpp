@@ -25,7 +25,7 @@ struct DemoOptions {
     std::vector<std::string> files, rig;
     std::optional<int> disparities;
     std::optional<double> rate_hz;
-    std::string folder = "vantage-demo", kept;
+    std::string folder = "vantage-demo", kept, trace;
     double seconds = 12;
     bool sweep = false, headless = false, rigs_only = false, json = false;
 
@@ -157,6 +157,7 @@ LiveOptions live_options(const DemoOptions& options, const std::filesystem::path
     live.show.flight = folder / ("flight-" + move.filename().string());
     live.takes = folder;
     live.show.json = options.json;
+    live.show.trace = options.trace;
     if (!options.headless) {
         live.show.outputs = {"file:" + (folder / "programme.mkv").string() + "?start=off"};
         live.show.overwrite = true;
@@ -319,6 +320,11 @@ CommandEntry demo_command_entry() {
             ->check(CLI::PositiveNumber)
             ->capture_default_str();
         command->add_flag("--json", options->json, "Print the summary as JSON");
+        command
+            ->add_option("--trace", options->trace,
+                         "Write when each step of the way from input and rigs to the outputs ran, "
+                         "as a trace for Perfetto (JSON; docs/develop/testing.md)")
+            ->type_name("FILE");
         command->add_flag("--rigs-only", options->rigs_only,
                           "Start only the rigs, print the path of their stage file, and wait, so "
                           "that other hosts "

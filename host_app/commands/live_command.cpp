@@ -38,6 +38,8 @@ void run_live_session(const LiveOptions& options) {
     settings.replay_bytes = static_cast<std::size_t>(options.past_mb * 1e6);
     for (const StageConfig::Rig& rig : stage.rigs)
         if (!rig.colour.empty()) settings.colours[rig.name] = load_colour(rig.colour);
+    // It must exist before the threads that it records.
+    const std::unique_ptr<TraceFile> trace = options.show.make_trace("vantage live");
     const std::unique_ptr<JogDevices> deck = options.show.make_deck();
     TakeControl takes(stage, options.stage, options.take, options.takes, from_s(options.pre_roll_s),
                       !options.show.audio.empty());

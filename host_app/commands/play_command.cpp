@@ -67,6 +67,8 @@ void play(const PlayOptions& options) {
         options.show.headless && !has_operator_input && !plan.frames && !plan.seconds;
     if (settings.ends_with_take && (options.loops || options.speed == 0))
         fail("--loop and --speed 0 have no end; add --frames or --seconds with --headless");
+    // It must exist before the threads that it records.
+    const std::unique_ptr<TraceFile> trace = options.show.make_trace("vantage play");
     // The sound starts where the picture starts.
     const PulseGrid pulses(take->facts().pulse_rate_hz);
     const auto begin = static_cast<std::uint64_t>(*settings.replay.transport().pulse());

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
+#include "common/base/trace/trace.h"
 
 namespace vantage {
 namespace {
@@ -18,8 +19,10 @@ constexpr double max_flight_s = 600;
 
 bool OperatorInputBox::put(const FlightInput& input, MonotonicTime now) {
     if (!input.is_any()) return true;
+    TraceSpan span("operator input");
     const std::lock_guard lock(mutex_);
     if (!waiting_.since) waiting_.since = now;
+    span.in(TraceId::of_input(*waiting_.since), TraceFlow::begins);
     const bool is_full = waiting_.input.commands.size() + input.commands.size() > max_commands;
     if (is_full)
         waiting_.input.add_axes(input);

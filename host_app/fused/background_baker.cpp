@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/this_thread.h"
+#include "common/base/trace/trace.h"
 #include "host_app/baked/baked_painter.h"
 #include "host_app/views/view_ranking.h"
 
@@ -181,6 +182,7 @@ void BackgroundBaker::divide() {
         [view = probes_[divided_->probe].view, colour = ColourImage(picture_.colour().download()),
          depth_m = DepthImage(depth_m_->download()), parallax = parallax_px_m_] {
             name_this_thread("bg tiles");
+            const TraceSpan span("background tiles");
             return probe_tiles(view, colour, depth_m, parallax);
         });
 }

@@ -1,12 +1,14 @@
 #include "host_app/output/output.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
 #include "common/base/time/pulse_grid.h"
 #include "common/base/time/time.h"
+#include "common/base/trace/trace.h"
 
 namespace vantage {
 namespace {
@@ -17,6 +19,11 @@ constexpr std::size_t most_waiting = 8;
 /// Highest rate with a time code. Above it, one code counts several frames, and a reader would get
 /// a wrong time.
 constexpr double most_numbers_a_second = 60;
+/// Frames that an encoder may hold back before they count as lost.
+constexpr std::size_t most_encoding = 64;
+/// All outputs encode right after a tick, which is when the next picture begins. An encoder has the
+/// whole tick for it, and the picture has not.
+constexpr int encoder_niceness = 5;
 /// Pause before a failed stream is tried again: the first and the longest one.
 constexpr std::chrono::milliseconds first_rest{500}, longest_rest{10'000};
 /// Time for a peer to take the waiting frames when an output ends.
@@ -24,6 +31,23 @@ constexpr std::chrono::seconds last_words{2};
 constexpr std::chrono::milliseconds look_period{50};
 /// Longest sound that waits.
 constexpr double longest_sound_s = 2;
+
+/// The place of an output among the sinks of its encoder.
+class EncoderSeat {
+  public:
+    EncoderSeat(SharedEncoder* encoder, EncodedSink& sink) : encoder_(encoder), sink_(sink) {
+        if (encoder_) encoder_->join(sink_);
+    }
+    ~EncoderSeat() {
+        if (encoder_) encoder_->leave(sink_);
+    }
+    EncoderSeat(const EncoderSeat&) = delete;
+    EncoderSeat& operator=(const EncoderSeat&) = delete;
+
+  private:
+    SharedEncoder* encoder_;
+    EncodedSink& sink_;
+};
 
 }  // namespace
 
@@ -85,6 +109,7 @@ void Output::want_no_more() {
 }
 
 void Output::take(const ProgrammePicture& picture) {
+    const TraceSpan span("hand to output");
     std::string timecode = timecode_ && picture.set ? timecode_->of(*picture.set) : std::string();
     const std::lock_guard lock(mutex_);
     if (!is_wanted_) return;
@@ -101,7 +126,71 @@ void Output::take(const ProgrammePicture& picture) {
             ++state_.silenced;
         }
     }
-    if (queue_.push({picture.picture, picture.tick, std::move(timecode)})) ++state_.dropped;
+    if (!plan_.encoder) {
+        if (queue_.push({picture.picture, picture.tick, std::move(timecode)})) ++state_.dropped;
+        return;
+    }
+    encoding_.push_back(picture.tick);
+    if (encoding_.size() > most_encoding) {
+        encoding_.pop_front();
+        ++state_.dropped;
+    }
+    plan_.encoder->offer(picture.picture, picture.tick);
+    while (!early_.empty() && early_.front().tick <= picture.tick) {
+        deliver(early_.front());
+        early_.pop_front();
+    }
+}
+
+void Output::take(const EncodedPicture& picture) {
+    const std::lock_guard lock(mutex_);
+    if (!encoding_.empty() && encoding_.back() >= picture.tick) return deliver(picture);
+    // Another output has offered the frame, and the programme is about to offer it here.
+    early_.push_back(picture);
+    if (early_.size() > most_waiting) early_.pop_front();
+}
+
+void Output::deliver(const EncodedPicture& picture) {
+    // The encoder could not follow and left these out.
+    while (!encoding_.empty() && encoding_.front() < picture.tick) {
+        encoding_.pop_front();
+        ++state_.dropped;
+    }
+    // A frame of other outputs, from before this one was open.
+    if (encoding_.empty() || encoding_.front() != picture.tick) return;
+    encoding_.pop_front();
+    if (!picture.is_key && picture.number != next_number_) awaits_key_ = true;
+    next_number_ = picture.number + 1;
+    if (awaits_key_ && !picture.is_key) {
+        ++(has_begun_ ? state_.dropped : state_.unheard);
+        // Key frames cost all outputs bits, so one that hangs asks for none.
+        const std::uint64_t held =
+            state_.offered - state_.pictures - state_.dropped - state_.unheard - encoding_.size();
+        if (held == 0) plan_.encoder->request_key();
+        return;
+    }
+    if (queue_.size() == most_waiting) {
+        ++state_.dropped;
+        return wait_for_key();
+    }
+    awaits_key_ = false;
+    has_begun_ = true;
+    (void)queue_.push({{}, picture.tick, {}, picture});
+}
+
+void Output::wait_for_key() {
+    while (queue_.pop_for({})) ++state_.dropped;
+    awaits_key_ = true;
+}
+
+void Output::note_encoder_failure(const std::string& sentence) {
+    const std::lock_guard lock(mutex_);
+    encoder_failure_ = sentence;
+}
+
+bool Output::is_being_encoded() const {
+    const std::lock_guard lock(mutex_);
+    return !encoding_.empty() && encoder_failure_.empty();
 }
 
 void Output::finish() {
@@ -129,6 +218,9 @@ bool Output::is_wanted() const {
 
 void Output::run() {
     name_this_thread("output");
+    name_trace_track("output " + plan_.name);
+    // The encoder and its threads, which begin here, follow the picture that is being rendered.
+    if (plan_.is_encoded) make_this_thread_nice(encoder_niceness);
     std::chrono::nanoseconds rest = first_rest;
     for (;;) {
         {
@@ -160,23 +252,21 @@ void Output::serve() {
     }
     first_tick_.reset();
     std::unique_ptr<OutputTarget> target = plan_.open(patience_);
+    const EncoderSeat seat(plan_.encoder.get(), *this);
     {
         const std::lock_guard lock(mutex_);
+        encoding_.clear();
+        early_.clear();
+        encoder_failure_.clear();
+        awaits_key_ = true;
+        has_begun_ = false;
         state_.phase = OutputPhase::on;
         state_.failure.clear();
         bytes_before_ = state_.bytes;
     }
     log_info("{}: {}", plan_.name, words_of(OutputPhase::on));
     try {
-        for (;;) {
-            if (const std::optional<Item> item = queue_.pop_for(look_period)) {
-                write(*target, *item);
-                while (queue_.size() == 0 && target->catch_up())
-                    ;
-            } else if (!is_wanted()) {
-                break;
-            }
-        }
+        write_all(*target);
         if (is_abandoned_) return;
         target->finish();
     } catch (const CallerLeft&) {
@@ -185,6 +275,9 @@ void Output::serve() {
         throw Error(error.what() + target->salvage());
     }
     const std::lock_guard lock(mutex_);
+    // The encoder has not delivered these in time.
+    state_.dropped += encoding_.size();
+    encoding_.clear();
     state_.bytes = bytes_before_ + target->bytes();
     state_.bit_rate_bps = 0;
     is_due_ = is_wanted_;
@@ -192,15 +285,45 @@ void Output::serve() {
     log_info("{}: ended", plan_.name);
 }
 
+void Output::write_all(OutputTarget& target) {
+    if (plan_.encoder) plan_.encoder->request_key();
+    bool is_flushed = false;
+    for (;;) {
+        // Read before the queue, which a frame enters when it leaves the encoder.
+        const bool is_last = !is_wanted() && !is_being_encoded();
+        if (const std::optional<Item> item = queue_.pop_for(look_period)) {
+            write(target, *item);
+            while (queue_.size() == 0 && target.catch_up())
+                ;
+            continue;
+        }
+        {
+            const std::lock_guard lock(mutex_);
+            if (!encoder_failure_.empty()) fail("{}", encoder_failure_);
+        }
+        if (is_last) return;
+        if (is_wanted() || !plan_.encoder) continue;
+        if (patience_.is_over()) return;
+        if (!std::exchange(is_flushed, true)) plan_.encoder->flush_for(*this);
+    }
+}
+
 void Output::write(OutputTarget& target, const Item& item) {
+    TraceSpan span("encode and write");
+    span.with("tick", static_cast<std::int64_t>(item.tick))
+        .in(TraceId::of_tick(item.tick), TraceFlow::passes);
     if (!first_tick_) first_tick_ = item.tick;
     const MonotonicTime start = MonotonicClock::now();
     if (item.tick > *first_tick_) hear(target, item.tick - 1);
-    target.write(item.picture, static_cast<std::int64_t>(item.tick - *first_tick_), item.timecode);
+    const auto tick = static_cast<std::int64_t>(item.tick - *first_tick_);
+    if (item.encoded)
+        target.write_encoded(*item.encoded, tick);
+    else
+        target.write(item.picture, tick, item.timecode);
     hear(target, item.tick);
     const MonotonicTime end = MonotonicClock::now();
     const std::lock_guard lock(mutex_);
-    write_ms_.add(to_ms(end - start));
+    write_ms_.add(to_ms(end - start) + (item.encoded ? item.encoded->encode_ms : 0));
     ++state_.pictures;
     state_.bytes = bytes_before_ + target.bytes();
     bytes_rate_.add(state_.bytes, end);
@@ -225,6 +348,8 @@ void Output::hear(OutputTarget& target, std::uint64_t until) {
 void Output::drop_waiting() {
     while (queue_.pop_for({}))
         ;
+    encoding_.clear();
+    early_.clear();
     sounds_.clear();
     state_.dropped = state_.offered - state_.pictures - state_.unheard;
     state_.bit_rate_bps = 0;

@@ -53,12 +53,12 @@ struct OutputState {
 /// and disk never delay a tick. If it cannot follow, the oldest waiting frame is dropped and
 /// counted; the others keep their times. Its failure does not affect other outputs. A stream is
 /// tried again at growing intervals of at most ten seconds.
-class Output {
+class Output : private EncodedSink {
   public:
     /// Creates a stopped output. `pulse_rate_hz` is that of the stage.
     Output(OutputPlan plan, const OutputFormat& format, double pulse_rate_hz);
     /// Removes an incomplete file, unless finish() was called.
-    ~Output();
+    ~Output() override;
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
 
@@ -80,11 +80,22 @@ class Output {
         ColourImage picture;
         std::uint64_t tick = 0;
         std::string timecode;
+        std::optional<EncodedPicture> encoded = {};  ///< instead of the picture
     };
     void run();
     /// Runs from opening until the end or a failure.
     void serve();
+    /// Writes until the output is stopped.
+    void write_all(OutputTarget& target);
     void write(OutputTarget& target, const Item& item);
+    void take(const EncodedPicture& picture) override;
+    void note_encoder_failure(const std::string& sentence) override;
+    /// Queues an encoded frame that was offered here. Precondition: mutex_ is held.
+    void deliver(const EncodedPicture& picture);
+    /// Drops what waits until the next key frame. Precondition: mutex_ is held.
+    void wait_for_key();
+    /// Whether a frame that was offered is still with the encoder.
+    bool is_being_encoded() const;
     /// Writes the sound of all ticks before `until`.
     void hear(OutputTarget& target, std::uint64_t until);
     void want_no_more();
@@ -114,7 +125,13 @@ class Output {
     OutputState state_;
     RateMeter bytes_rate_;
     PercentileRecorder write_ms_;
-    std::uint64_t bytes_before_ = 0;  ///< of earlier openings
+    std::uint64_t bytes_before_ = 0;      ///< of earlier openings
+    std::deque<std::uint64_t> encoding_;  ///< ticks that the encoder has, of a plan with one
+    std::deque<EncodedPicture> early_;    ///< encoded before they were offered here
+    bool awaits_key_ = true;              ///< encoded frames are of no use until a key frame
+    bool has_begun_ = false;              ///< an encoded frame was passed on since opening
+    std::uint64_t next_number_ = 0;       ///< of the encoder's frames
+    std::string encoder_failure_;         ///< since opening; empty: none
     bool is_wanted_ = false, is_ending_ = false;
     bool is_due_ = false;  ///< has to be opened, if only to write the waiting frames
     std::atomic<bool> is_abandoned_ = false;

@@ -21,6 +21,7 @@ class OutputSupervisor::Fan final : public PictureSink {
 
 OutputSupervisor::OutputSupervisor(Settings settings) : settings_(std::move(settings)) {
     check(settings_);
+    settings_.format.encoders = std::make_shared<EncoderPool>();
     for (const std::string& url : settings_.urls) add(url);
 }
 
@@ -68,6 +69,7 @@ bool OutputSupervisor::is_wanted(std::size_t number) const {
 }
 
 void OutputSupervisor::finish() {
+    settings_.format.encoders->flush();
     for (const std::shared_ptr<Output>& output : outputs()) output->finish();
 }
 

@@ -41,6 +41,8 @@ class OutputSupervisor {
     std::vector<OutputState> states() const;
     /// Feeds of outputs to monitors, for the thread that owns the windows.
     std::vector<std::shared_ptr<ScreenFeed>> screens() const;
+    /// Number of frames that the shared encoders of streams have encoded so far.
+    std::uint64_t encoded() const { return settings_.format.encoders->encoded(); }
     /// True if an output writes to standard output.
     bool takes_stdout() const;
 

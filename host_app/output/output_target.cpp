@@ -1,8 +1,18 @@
 #include "host_app/output/output_target.h"
 
+#include <cassert>
+
 #include "common/base/error.h"
 
 namespace vantage {
+
+void OutputTarget::write(const ColourImage&, std::int64_t, const std::string&) {
+    assert(!"a target of frames that are not encoded overrides write()");
+}
+
+void OutputTarget::write_encoded(const EncodedPicture&, std::int64_t) {
+    assert(!"a target of encoded frames overrides write_encoded()");
+}
 
 OutputPlan plan_output(const std::string& text, const OutputFormat& format) {
     OutputUrl url = OutputUrl::parse(text);

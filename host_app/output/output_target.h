@@ -9,6 +9,7 @@
 #include "common/av/sound.h"
 #include "common/base/error.h"
 #include "common/image/image.h"
+#include "host_app/output/media/shared_encoder.h"
 #include "host_app/output/output_retry.h"
 #include "host_app/output/output_url.h"
 
@@ -23,6 +24,8 @@ struct OutputFormat {
     std::string encoder = "libx264";  ///< one of known_encoders()
     bool overwrites = false;          ///< an existing file may be replaced
     bool has_sound = false;           ///< every tick has a SoundBlock
+    /// Streams of equal settings share its encoders; null: each has its own.
+    std::shared_ptr<EncoderPool> encoders = nullptr;
 };
 
 /// Error of a listening output whose caller has left. It ends the connection but does not count as
@@ -39,8 +42,10 @@ class OutputTarget {
     virtual ~OutputTarget() = default;
     /// Writes the frame of a tick. Ticks count from 0; those of dropped frames are missing.
     /// `timecode` may be empty. Throws Error if the target has failed.
-    virtual void write(const ColourImage& picture, std::int64_t tick,
-                       const std::string& timecode) = 0;
+    virtual void write(const ColourImage& picture, std::int64_t tick, const std::string& timecode);
+    /// The same for targets of a plan with `encoder`, which get its frames. The first one is a key
+    /// frame, and so is the first one after a gap.
+    virtual void write_encoded(const EncodedPicture& picture, std::int64_t tick);
     /// Writes the sound of a tick, if the plan includes sound, in the order of ticks and right
     /// after its frame. The sound of a dropped frame comes before the next frame.
     virtual void hear(const SoundBlock& /*sound*/, std::int64_t /*tick*/) {}
@@ -65,6 +70,7 @@ struct OutputPlan {
     bool takes_sound = false;
     bool is_listening = false;  ///< opening it waits for a caller
     bool is_encoded = true;
+    std::shared_ptr<SharedEncoder> encoder = {};  ///< of a stream; null: the target encodes itself
     bool takes_stdout = false;
     std::shared_ptr<ScreenFeed> screen = {};  ///< feed for a monitor; null: none
     /// Waits until the target is open. Throws Error if it cannot be opened, or soon after

@@ -53,12 +53,18 @@ StreamTarget::StreamTarget(const Settings& settings, const OutputPatience& patie
                                     &output_->interrupt_callback, &options.entries);
         code < 0)
         fail_for("it cannot be opened", code, settings.silence);
-    encoder_.emplace(settings.encoder, settings.encoding);
-    stream_ = &add_stream(encoder_->context());
-    stream_->avg_frame_rate = encoder_->context().framerate;
+    encoder_.emplace(settings.encoder);
+    packet_.reset(av_packet_alloc());
+    if (!packet_) fail("memory is short");
+    stream_ = &add_stream(encoder_->parameters(), encoder_->time_base());
+    stream_->avg_frame_rate = encoder_->rate();
     if (settings.has_sound) {
-        sound_.emplace(settings.encoding.rate_hz, SoundEncoder::Codec::aac, false);
-        sound_stream_ = &add_stream(sound_->encoder().context());
+        sound_.emplace(settings.encoder->settings().rate_hz, SoundEncoder::Codec::aac, false);
+        const AVCodecContext& sound = sound_->encoder().context();
+        const AvCodecParametersPtr parameters(avcodec_parameters_alloc());
+        if (!parameters || avcodec_parameters_from_context(parameters.get(), &sound) < 0)
+            fail("memory is short");
+        sound_stream_ = &add_stream(*parameters, sound.time_base);
         av_opt_set_int(output_->priv_data, "pes_payload_size", 0, 0);
     }
     av_dict_set(&output_->metadata, "service_name", "Vantage", 0);
@@ -72,16 +78,21 @@ void StreamTarget::fail_for_peer(const char* what, int code) const {
     throw CallerLeft("its caller has left");
 }
 
-void StreamTarget::write(const ColourImage& picture, std::int64_t tick, const std::string&) {
-    encoder_->add(picture, tick);
-    send();
+void StreamTarget::write_encoded(const EncodedPicture& picture, std::int64_t tick) {
+    av_packet_unref(packet_.get());
+    if (av_packet_ref(packet_.get(), picture.packet.get()) < 0) fail("memory is short");
+    // The encoder counts the ticks of the programme, and a stream those since its beginning.
+    const std::int64_t decoded_before = packet_->pts - packet_->dts;
+    packet_->pts = tick;
+    packet_->dts = tick - decoded_before;
+    mux(*packet_, encoder_->time_base(), *stream_);
 }
 
-AVStream& StreamTarget::add_stream(const AVCodecContext& encoder) {
+AVStream& StreamTarget::add_stream(const AVCodecParameters& parameters, AVRational time_base) {
     AVStream* stream = avformat_new_stream(output_.get(), nullptr);
     if (!stream) fail("memory is short");
-    stream->time_base = encoder.time_base;
-    avcodec_parameters_from_context(stream->codecpar, &encoder);
+    stream->time_base = time_base;
+    if (avcodec_parameters_copy(stream->codecpar, &parameters) < 0) fail("memory is short");
     return *stream;
 }
 
@@ -91,8 +102,6 @@ void StreamTarget::hear(const SoundBlock& sound, std::int64_t tick) {
 }
 
 void StreamTarget::finish() {
-    encoder_->end();
-    send();
     if (sound_) {
         sound_->encoder().end();
         send_sound();
@@ -105,26 +114,22 @@ std::uint64_t StreamTarget::bytes() const {
     return static_cast<std::uint64_t>(std::max<std::int64_t>(0, avio_tell(output_->pb)));
 }
 
-void StreamTarget::send() {
-    while (AVPacket* packet = encoder_->next()) write(*packet, encoder_->context(), *stream_);
-}
-
 void StreamTarget::send_sound() {
     SoundEncoder& encoder = sound_->encoder();
     while (AVPacket* packet = encoder.next()) {
         // MPEG-TS has no times before the first frame; a decoder can start with the next packet.
-        if (packet->pts >= 0) write(*packet, encoder.context(), *sound_stream_);
+        if (packet->pts >= 0) mux(*packet, encoder.context().time_base, *sound_stream_);
     }
 }
 
-void StreamTarget::write(AVPacket& packet, const AVCodecContext& encoder, const AVStream& stream) {
-    av_packet_rescale_ts(&packet, encoder.time_base, stream.time_base);
+void StreamTarget::mux(AVPacket& packet, AVRational time_base, const AVStream& stream) {
+    av_packet_rescale_ts(&packet, time_base, stream.time_base);
     packet.stream_index = stream.index;
     if (const int code = av_write_frame(output_.get(), &packet); code < 0)
         fail_for_peer("its peer or the network is gone", code);
 }
 
-EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format) {
+std::shared_ptr<SharedEncoder> stream_encoder(const OutputUrl& url, const OutputFormat& format) {
     if (format.width_px % 2 != 0 || format.height_px % 2 != 0)
         fail("the output {}: a stream of {}x{} cannot be sent: its sides have to be even",
              url.shown, format.width_px, format.height_px);
@@ -133,11 +138,14 @@ EncoderSettings stream_encoding(const OutputUrl& url, const OutputFormat& format
     constexpr double bits_a_pixel = 0.1, least_bps = 500e3;
     const double usual_bps =
         std::max(least_bps, bits_a_pixel * format.width_px * format.height_px * format.rate_hz);
-    return {.width_px = format.width_px,
-            .height_px = format.height_px,
-            .rate_hz = format.rate_hz,
-            .bit_rate_bps = url.bit_rate_bps().value_or(std::llround(usual_bps)),
-            .is_live = true};
+    const EncoderSettings settings{
+        .width_px = format.width_px,
+        .height_px = format.height_px,
+        .rate_hz = format.rate_hz,
+        .bit_rate_bps = url.bit_rate_bps().value_or(std::llround(usual_bps)),
+        .is_live = true};
+    return format.encoders ? format.encoders->find(format.encoder, settings)
+                           : std::make_shared<SharedEncoder>(format.encoder, settings);
 }
 
 }  // namespace vantage

@@ -8,6 +8,7 @@
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
 #include "common/base/time/time_budget.h"
+#include "common/base/trace/trace.h"
 #include "common/gl/context/context_loss.h"
 #include "common/gl/context/driver_lock.h"
 #include "common/gl/context/limits.h"
@@ -390,6 +391,9 @@ void InstantThread::Loop::warm_up(FrameSet& set, const InstantRequest& request) 
 
 void InstantThread::Loop::prepare_set(FrameSetSource::Past next, const InstantRequest& request,
                                       MonotonicTime taken_up) {
+    TraceSpan span("instant");
+    span.with("pulse", static_cast<std::int64_t>(next.set.trigger_index))
+        .in(TraceId::of_frame_set(next.set.trigger_index), TraceFlow::passes);
     const MonotonicTime start = MonotonicClock::now();
     const bool is_live = !request.pulse;
     const bool is_counted = next.share == 0 && (is_live || owner_.source_.has_take());
@@ -404,7 +408,9 @@ void InstantThread::Loop::prepare_set(FrameSetSource::Past next, const InstantRe
     // While the past is shown, the camera says nothing about the rigs that are needed live.
     if (is_live) ask_for_rigs(views, request);
     const auto prepare = [&] {
+        TraceSpan taking("take views");
         preparer_->take(views, std::min(dt_s, max_gap_s));
+        taking.end();
         ReadyInstant ready = last_;
         ready.set = std::make_shared<const FrameSet>(std::move(next.set));
         ready.share = next.share;
@@ -447,6 +453,7 @@ void InstantThread::Loop::refine_shown(const InstantRequest& request) {
 }
 
 bool InstantThread::Loop::refine_background(const InstantRequest& request) {
+    const TraceSpan span("background step");
     const MonotonicTime start = MonotonicClock::now();
     bool has_more = false;
     (void)unless_time_jumps(request, [&] { has_more = preparer_->improve_a_step(request.target); });
@@ -468,12 +475,17 @@ void InstantThread::Loop::ask_for_rigs(std::span<const DepthView> views,
 
 void InstantThread::Loop::publish(ReadyInstant ready, const InstantRequest& request,
                                   MonotonicTime start) {
+    TraceSpan preparing("prepare");
+    preparing.with("level", request.level.rank);
     ready.instant = preparer_->prepare(request.target, request.level);
+    preparing.end();
     if (request.preview && request.level.rank == 0)
         ready.instant = joined(ready.instant, *preparer_->prepare(*request.preview, request.level));
     ready.preparer = preparer_;
     ready.generation = preparers_.generation();
+    TraceSpan waiting("fence wait");
     Fence::insert().wait("an instant was waited for");
+    waiting.end();
     check_gl("preparing an instant");
     ready.prepare_ms = ms_since(start);
     ++ready.number;

@@ -3,6 +3,7 @@
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
 #include "common/base/time/time.h"
+#include "common/base/trace/trace.h"
 #include "common/gl/context/context_loss.h"
 #include "common/gl/context/driver_lock.h"
 #include "common/gl/sliced_drawing.h"
@@ -111,7 +112,9 @@ void PictureMaker::run() {
 }
 
 void PictureMaker::make_pictures(const ContextGroup::Member& member) {
-    const DriverLock turn(contexts_->driver());
+    const DriverLock turn(contexts_->driver(), manner_ == Manner::at_once
+                                                   ? DriverLock::Urgency::urgent
+                                                   : DriverLock::Urgency::usual);
     const CurrentContext current(*member.context);
     require_context("a renderer was set up");
     std::optional<SlicedDrawing> slices;
@@ -163,6 +166,10 @@ std::optional<PictureMaker::Work> PictureMaker::next_work(
 
 std::shared_ptr<MadePicture> PictureMaker::rendered(ViewPainter& painter,
                                                     const PictureJob& job) const {
+    TraceSpan span("picture");
+    span.with("level", job.level.rank)
+        .in(TraceId::of_step(job.step), TraceFlow::passes)
+        .in(TraceId::of_frame_set(job.instant->set->trigger_index), TraceFlow::passes);
     auto made = std::make_shared<MadePicture>();
     const MonotonicTime start = MonotonicClock::now();
     made->picture = painter.paint(*job.instant->instant, job.camera, job.level,

@@ -9,6 +9,7 @@
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
 #include "common/base/time/time.h"
+#include "common/base/trace/trace.h"
 #include "host_app/programme/reprojection.h"
 #include "host_app/programme/tick_clock.h"
 
@@ -130,6 +131,8 @@ void Programme::run() {
         const MonotonicTime due = start + clock.time_of(tick + 1);
         const double due_s = std::chrono::duration<double>(clock.time_of(tick + 1)).count();
         sleep_until(due - lead());
+        TraceSpan tick_span("tick");
+        tick_span.with("late_us", (MonotonicClock::now() - (due - lead())).count() / 1000);
         const bool was_due = take_step(due_s, MonotonicClock::now());
         const MonotonicTime reproject_at = due - reprojection_lead();
         bool is_begun = false, is_reprojecting = false;
@@ -180,8 +183,11 @@ void Programme::take_time(CameraStep& step, double time_s,
 }
 
 bool Programme::take_step(double time_s, MonotonicTime now) {
+    TraceSpan sampling("camera sample");
     CameraStep step = camera_source_.step(time_s, transport().pulse());
     ++step_;
+    sampling.in(TraceId::of_step(step_), TraceFlow::begins);
+    if (step.input) sampling.in(TraceId::of_input(*step.input), TraceFlow::passes);
     instant_ = instants_.newest();
     const std::optional<PastFrameSets::Span> span = instants_.past_span();
     take_time(step, time_s, span);
@@ -395,7 +401,9 @@ void Programme::note_rest(const MadePicture& made, MonotonicTime now) {
 }
 
 void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTime due) {
+    TraceSpan span("hand over");
     const MonotonicTime now = MonotonicClock::now();
+    span.with("late_us", (now - due).count() / 1000);
     take_finished();
     const std::shared_ptr<const MadePicture> reprojected = take_reprojection();
     const bool is_new =
@@ -418,6 +426,11 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
             frames_.handed = frames_.shown;
     }
     if (!frames_.handed) return;
+    if (is_new || reprojected)
+        span.in(TraceId::of_step(frames_.handed->job.step), TraceFlow::ends)
+            .in(TraceId::of_frame_set(frames_.handed->job.instant->set->trigger_index),
+                TraceFlow::ends);
+    span.in(TraceId::of_tick(sink_ticks_), TraceFlow::begins);
     const std::optional<double> latency_ms =
         recorder_.record({.fresh = is_new ? frames_.shown.get() : nullptr,
                           .reprojected = reprojected.get(),
@@ -426,15 +439,17 @@ void Programme::hand_over(std::uint64_t passed_ticks, bool was_due, MonotonicTim
                           .due = due,
                           .now = now,
                           .faults = synthesisers_.faults()});
+    std::optional<MonotonicTime> input;
     {
         const std::lock_guard lock(mutex_);
         state_.picture = frames_.handed;
         if (latency_ms) state_.latency_ms = *latency_ms;
         if (reprojected || is_new)
-            input_latency_.showed(
+            input = input_latency_.showed(
                 frames_.handed->job.step,
                 reprojected ? reprojected->rendered->job.step : frames_.shown->job.step, now);
     }
+    if (input) span.in(TraceId::of_input(*input), TraceFlow::ends);
     give_to_sinks(*frames_.handed, passed_ticks, due);
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/base/this_thread.h"
 #include "common/base/time/time.h"
+#include "common/base/trace/trace.h"
 #include "host_app/programme/reprojection.h"
 
 namespace vantage {
@@ -51,6 +52,8 @@ double Reprojector::longest_ms() const {
 }
 
 std::shared_ptr<const MadePicture> Reprojector::reprojected(const Work& work) {
+    TraceSpan span("reproject");
+    span.in(TraceId::of_step(work.step), TraceFlow::passes);
     const MadePicture& rendered = *work.rendered;
     const std::optional<Reprojection> way =
         Reprojection::between(rendered.job.camera, work.camera, rendered.inverse_depth, size_);

@@ -6,6 +6,7 @@
 
 #include "common/base/log.h"
 #include "common/base/time/time.h"
+#include "common/base/trace/trace.h"
 #include "common/gl/context/context_loss.h"
 #include "common/gl/context/limits.h"
 #include "host_app/programme/unseen_mark.h"
@@ -52,6 +53,7 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
         format_.stereoscopy
             ? format_.stereoscopy->rendered_size(full, level.scale)
             : cv::Size(cvRound(full.width * level.scale), cvRound(full.height * level.scale));
+    TraceSpan rendering("render");
     const Texture& texture = render(instant, camera, size, level, false);
     check_gl("rendering the virtual view");
     // The readback is queued before this thread waits for the frame.
@@ -60,7 +62,11 @@ ColourImage ViewPainter::paint(const Instant& instant, const CameraState& camera
     if (const Texture* depth_m = renderer_->depth_m();
         depth_m && inverse_depth && !format_.stereoscopy)
         coarse_depth_.begin(*depth_m);
+    rendering.end();
+    TraceSpan waiting("fence wait");
     drawn.wait("waiting for a frame");
+    waiting.end();
+    const TraceSpan reading("readback");
     const MonotonicTime start = MonotonicClock::now();
     ColourImage picture = readback_.take(size == full ? pictures_.take<ColourImage>(full) : small_);
     if (coarse_depth_.is_begun()) *inverse_depth = coarse_depth_.take();

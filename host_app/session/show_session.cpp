@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/time/pulse_grid.h"
+#include "common/base/trace/trace.h"
 #include "common/image/image_file.h"
 #include "host_app/control/ports/freed_sink.h"
 #include "host_app/control/ports/opentrackio_sink.h"
@@ -236,16 +237,21 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, BackgroundS
            !stop.wait_for(
                std::max(std::chrono::nanoseconds(0), last + period - MonotonicClock::now()))) {
         const MonotonicTime now = MonotonicClock::now();
+        TraceSpan polling("window events");
         const FlightInput input = window.poll(std::chrono::duration<double>(now - last).count());
+        polling.end();
         if (const std::optional<double> pulse = window.take_seek()) show.controls().seek(*pulse);
         for (const WheelCall& call : window.take_wheel_calls()) show.controls().wheels().obey(call);
+        show.controls().operator_input().put(input, now);
+        TraceSpan following("requests");
         follow_requests(outputs, backgrounds, room, now);
         screens.follow(show.outputs().screens());
-        show.controls().operator_input().put(input, now);
+        following.end();
         last = now;
         const ProgrammeState programme = show.state();
         const bool is_new = programme.picture != shown;
         if (window.is_desk_due(now) || (is_new && !shown)) {
+            const TraceSpan span("desk");
             DeskState state =
                 feed.state(show, programme, takes ? std::optional(takes->state()) : std::nullopt,
                            outputs.question(now), window.shows_outside());
@@ -262,6 +268,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, BackgroundS
                           state.is_ltc_off ? fmt::format(" ({:+} frames)", ltc.frames_ahead) : "");
             window.show(std::move(state));
         } else if (is_new || (shown && programme.preview.picture != shown_preview)) {
+            const TraceSpan span("desk pictures");
             window.show_pictures(*feed.picture(programme), feed.preview(programme));
         }
         if (is_new) feed.note_shown(programme);

@@ -148,9 +148,9 @@ void ImpairedRoad::at_the_rigs(const std::function<void()>& work) const {
     go_to(host_place_);
 }
 
-void ImpairedRoad::impair(const RoadTrouble& trouble) {
+void ImpairedRoad::impair(const RoadTrouble& to_rigs, const RoadTrouble& from_rigs) {
     const std::lock_guard lock(mutex_);
-    trouble_ = trouble;
+    troubles_ = {to_rigs, from_rigs};
 }
 
 ImpairedRoad::Counts ImpairedRoad::counts() const {
@@ -171,14 +171,15 @@ void ImpairedRoad::carry() {
             {ends_[0].get(), POLLIN, 0}, {ends_[1].get(), POLLIN, 0}, {wake_.get(), POLLIN, 0}};
         const auto wait = std::chrono::ceil<std::chrono::milliseconds>(next - now);
         (void)::poll(items, std::size(items), static_cast<int>(wait.count()));
-        for (const std::size_t i : {0, 1}) take_in(ends_[i].get(), ways_[i]);
+        for (const std::size_t i : {0, 1}) take_in(i);
     }
 }
 
-void ImpairedRoad::take_in(int from, Way& way) {
+void ImpairedRoad::take_in(std::size_t end) {
+    Way& way = ways_[end];
     std::array<std::byte, largest_packet> packet;
     for (int i = 0; i < packets_per_turn; ++i) {
-        const ssize_t bytes = ::read(from, packet.data(), packet.size());
+        const ssize_t bytes = ::read(ends_[end].get(), packet.data(), packet.size());
         if (bytes <= 0) return;
         // The kernel's own talk of IPv6 is not what is counted.
         constexpr unsigned ipv4 = 4;
@@ -186,21 +187,26 @@ void ImpairedRoad::take_in(int from, Way& way) {
         const std::lock_guard lock(mutex_);
         const std::uint64_t number = ++way.packets;
         ++counts_.came;
-        if (trouble_.is_down || is_nth(number, trouble_.lose_every)) {
+        const RoadTrouble& trouble = troubles_[end];
+        const bool is_in_run = trouble.lose_every > 0 && number >= trouble.lose_every &&
+                               number % trouble.lose_every < trouble.lose_run;
+        const bool is_too_large = trouble.lose_over_bytes > 0 &&
+                                  static_cast<std::size_t>(bytes) > trouble.lose_over_bytes;
+        if (trouble.is_down || is_in_run || is_too_large) {
             ++counts_.lost;
             continue;
         }
         std::vector<std::byte> copy(packet.data(), packet.data() + bytes);
-        if (is_nth(number, trouble_.corrupt_every)) {
+        if (is_nth(number, trouble.corrupt_every)) {
             copy.back() ^= std::byte{0x55};
             ++counts_.corrupted;
         }
-        Time time = std::chrono::steady_clock::now() + trouble_.delay;
-        if (is_nth(number, trouble_.late_every)) {
-            time += trouble_.late_by;
+        Time time = std::chrono::steady_clock::now() + trouble.delay;
+        if (is_nth(number, trouble.late_every)) {
+            time += trouble.late_by;
             ++counts_.late;
         }
-        if (is_nth(number, trouble_.duplicate_every)) {
+        if (is_nth(number, trouble.duplicate_every)) {
             way.under_way.emplace(time, copy);
             ++counts_.duplicated;
         }

@@ -20,10 +20,12 @@ namespace vantage {
 /// What a road does to the packets that go one way, by their count and never by chance: the same
 /// packets meet the same every time. 0: none.
 struct RoadTrouble {
-    unsigned lose_every = 0;       ///< every n-th packet is lost
-    unsigned duplicate_every = 0;  ///< every n-th packet comes twice
-    unsigned corrupt_every = 0;    ///< of every n-th packet one byte is another
-    unsigned late_every = 0;       ///< every n-th packet comes `late_by` after its time
+    unsigned lose_every = 0;          ///< every n-th packet is lost
+    unsigned lose_run = 1;            ///< and so many in a row
+    std::size_t lose_over_bytes = 0;  ///< larger packets are lost, and nobody is told
+    unsigned duplicate_every = 0;     ///< every n-th packet comes twice
+    unsigned corrupt_every = 0;       ///< of every n-th packet one byte is another
+    unsigned late_every = 0;          ///< every n-th packet comes `late_by` after its time
     std::chrono::milliseconds late_by{0};
     std::chrono::microseconds delay{0};  ///< of all packets
     bool is_down = false;                ///< nothing comes through
@@ -52,7 +54,9 @@ class ImpairedRoad {
     void at_the_rigs(const std::function<void()>& work) const;
 
     /// From now on, both ways.
-    void impair(const RoadTrouble& trouble);
+    void impair(const RoadTrouble& trouble) { impair(trouble, trouble); }
+    /// From now on, each way its own.
+    void impair(const RoadTrouble& to_rigs, const RoadTrouble& from_rigs);
 
     struct Counts {
         std::uint64_t came = 0, lost = 0, duplicated = 0, corrupted = 0, late = 0;
@@ -68,14 +72,14 @@ class ImpairedRoad {
     };
 
     void carry();
-    void take_in(int from, Way& way);
+    void take_in(std::size_t end);
     void deliver(int to, Way& way, Time now) const;
 
     UniqueFd home_, host_place_, rig_place_, wake_;
     std::array<UniqueFd, 2> ends_;  ///< the host's device, the rigs'
     std::array<Way, 2> ways_;       ///< from each end; the carrying thread's
     mutable std::mutex mutex_;
-    RoadTrouble trouble_;
+    std::array<RoadTrouble, 2> troubles_;  ///< of each way
     Counts counts_;
     std::atomic<bool> stopping_ = false;
     std::thread carrier_;

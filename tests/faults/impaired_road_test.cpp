@@ -71,6 +71,22 @@ TEST_F(ImpairedRoadTest, LosesEveryNthAndDamagedOnesAreNotTaken) {
     EXPECT_EQ(road_->counts().corrupted, 1u);
 }
 
+TEST_F(ImpairedRoadTest, LosesInARowByOneWayAndBySize) {
+    road_->impair({.lose_every = 4, .lose_run = 2});  // the fourth and what follows it
+    send(6);
+    EXPECT_EQ(hear(4), (std::vector<unsigned>{1, 2, 3, 6}));
+    road_->impair({}, {.is_down = true});
+    send(2);
+    EXPECT_EQ(hear(2), (std::vector<unsigned>{1, 2})) << "only the other way is down";
+    // A datagram of 4 bytes has 32 with its heads.
+    road_->impair({.lose_over_bytes = 32});
+    send(1);
+    EXPECT_EQ(hear(1).size(), 1u);
+    road_->impair({.lose_over_bytes = 31});
+    send(1);
+    EXPECT_EQ(road_->counts().lost, 2u + 1);
+}
+
 TEST_F(ImpairedRoadTest, DuplicatesAndHoldsBackEveryNth) {
     using namespace std::chrono_literals;
     road_->impair({.duplicate_every = 2});

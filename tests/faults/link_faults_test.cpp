@@ -2,6 +2,7 @@
 #include <chrono>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -30,6 +31,8 @@ struct NetworkFault {
     std::string name;
     RoadTrouble trouble;
     std::chrono::milliseconds lasts = beats_of_trouble * beat_period;
+    /// What packets meet that leave the rig; empty: the same as those that come to it.
+    std::optional<RoadTrouble> from_rig = std::nullopt;
     friend void PrintTo(const NetworkFault& fault, std::ostream* out) { *out << fault.name; }
 };
 
@@ -103,7 +106,7 @@ TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
     ASSERT_TRUE(eventually([&] { return rig(far).received > 0; }));
 
     const NetworkFault& fault = GetParam();
-    road_->impair(fault.trouble);
+    road_->impair(fault.trouble, fault.from_rig.value_or(fault.trouble));
     const auto end = std::chrono::steady_clock::now() + fault.lasts;
     // A slow computer sends few packets: until the trouble has met one.
     const auto has_met = [&] {
@@ -150,8 +153,12 @@ TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
     }));
     const RigStatus status = rig(far);
     // A rig whose host says nothing for seconds offers frames to nobody.
+    const auto may_break = [](const RoadTrouble& trouble) {
+        return trouble.is_down || trouble.lose_every > 0 || trouble.corrupt_every > 0 ||
+               trouble.lose_over_bytes > 0;
+    };
     const bool is_unbroken =
-        !fault.trouble.is_down && fault.trouble.lose_every == 0 && fault.trouble.corrupt_every == 0;
+        !may_break(fault.trouble) && !may_break(fault.from_rig.value_or(fault.trouble));
     if (is_unbroken) {
         EXPECT_EQ(status.link.offered, beats_);
     }
@@ -169,27 +176,40 @@ TEST_P(LinkFaults, ThinOneRigsFramesOutAndEveryOneIsCounted) {
 
 INSTANTIATE_TEST_SUITE_P(
     Matrix, LinkFaults,
-    testing::Values(NetworkFault{"Loss1", {.lose_every = 100}},
-                    NetworkFault{"Loss3", {.lose_every = 33}},
-                    NetworkFault{"Loss7", {.lose_every = 14}},
-                    NetworkFault{"Loss10", {.lose_every = 10}},
-                    NetworkFault{"Burst40ms", {.is_down = true}, 40ms},
-                    NetworkFault{"Jitter20ms", {.late_every = 3, .late_by = 20ms}},
-                    NetworkFault{"Jitter40ms", {.late_every = 2, .late_by = 40ms}},
-                    NetworkFault{"Reorder", {.late_every = 5, .late_by = 1ms}},
-                    NetworkFault{"Duplicate", {.duplicate_every = 3}},
-                    NetworkFault{"Corrupt3", {.corrupt_every = 33}},
-                    NetworkFault{"Corrupt10", {.corrupt_every = 10}},
-                    NetworkFault{"RoundTrip1ms", {.delay = 1ms}},
-                    NetworkFault{"RoundTrip20ms", {.delay = 10ms}},
-                    NetworkFault{"RoundTrip100ms", {.delay = 50ms}},
-                    NetworkFault{"Loss3At20ms", {.lose_every = 33, .delay = 10ms}},
-                    NetworkFault{"Loss10At100ms", {.lose_every = 10, .delay = 50ms}},
-                    NetworkFault{"Down100ms", {.is_down = true}, 100ms},
-                    NetworkFault{"Down1s", {.is_down = true}, 1s},
-                    NetworkFault{"Down10s", {.is_down = true}, 10s},
-                    // By then the kernel's own attempts are six seconds apart.
-                    NetworkFault{"Down12s", {.is_down = true}, 11900ms}),
+    testing::Values(
+        NetworkFault{"Loss1", {.lose_every = 100}}, NetworkFault{"Loss3", {.lose_every = 33}},
+        NetworkFault{"Loss7", {.lose_every = 14}}, NetworkFault{"Loss10", {.lose_every = 10}},
+        NetworkFault{"Burst40ms", {.is_down = true}, 40ms},
+        NetworkFault{"Jitter20ms", {.late_every = 3, .late_by = 20ms}},
+        NetworkFault{"Jitter40ms", {.late_every = 2, .late_by = 40ms}},
+        NetworkFault{"Reorder", {.late_every = 5, .late_by = 1ms}},
+        NetworkFault{"Duplicate", {.duplicate_every = 3}},
+        NetworkFault{"Corrupt3", {.corrupt_every = 33}},
+        NetworkFault{"Corrupt10", {.corrupt_every = 10}},
+        NetworkFault{"RoundTrip1ms", {.delay = 1ms}},
+        NetworkFault{"RoundTrip20ms", {.delay = 10ms}},
+        NetworkFault{"RoundTrip100ms", {.delay = 50ms}},
+        NetworkFault{"Loss1At20ms", {.lose_every = 100, .delay = 10ms}},
+        NetworkFault{"Loss3At20ms", {.lose_every = 33, .delay = 10ms}},
+        NetworkFault{"Loss7At20ms", {.lose_every = 14, .delay = 10ms}},
+        NetworkFault{"Loss10At20ms", {.lose_every = 10, .delay = 10ms}},
+        NetworkFault{"Loss1At100ms", {.lose_every = 100, .delay = 50ms}},
+        NetworkFault{"Loss3At100ms", {.lose_every = 33, .delay = 50ms}},
+        NetworkFault{"Loss7At100ms", {.lose_every = 14, .delay = 50ms}},
+        NetworkFault{"Loss10At100ms", {.lose_every = 10, .delay = 50ms}},
+        // Radio loses packets in a row, sends others again, and holds up those behind.
+        NetworkFault{"WifiBursts",
+                     {.lose_every = 60, .lose_run = 12, .late_every = 4, .late_by = 15ms}},
+        NetworkFault{"AsymmetricDelay", {.delay = 1ms}, 2s, RoadTrouble{.delay = 60ms}},
+        NetworkFault{"AsymmetricLoss", {}, 2s, RoadTrouble{.lose_every = 10}},
+        NetworkFault{"AsymmetricLossOfAnswers", {.lose_every = 10}, 2s, RoadTrouble{}},
+        // No packet as large as a frame's comes through, and no router says so.
+        NetworkFault{"BlackHole", {.lose_over_bytes = 600}},
+        NetworkFault{"Down100ms", {.is_down = true}, 100ms},
+        NetworkFault{"Down1s", {.is_down = true}, 1s},
+        NetworkFault{"Down10s", {.is_down = true}, 10s},
+        // By then the kernel's own attempts are six seconds apart.
+        NetworkFault{"Down12s", {.is_down = true}, 11900ms}),
     [](const auto& test) { return test.param.name; });
 
 }  // namespace

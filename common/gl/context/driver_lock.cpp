@@ -3,24 +3,68 @@
 #include <cassert>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <thread>
 #include <utility>
 
 #include <dlfcn.h>
 #include <pthread.h>
 
+#include "common/base/trace/trace.h"
+
 namespace vantage {
 namespace {
 
 /// The driver's mutex if this thread holds it. Thread-local, like the current context.
 thread_local std::mutex* held = nullptr;
+thread_local bool is_urgent = false;
+
+/// The urgent threads that wait for a lock. A mutex alone is not fair: a thread that releases it
+/// for a moment takes it back before one that waits has woken up.
+struct UrgentWaits {
+    std::mutex mutex;
+    std::condition_variable ended;
+    int count = 0;  ///< guarded by mutex
+};
+UrgentWaits& urgent_waits() {
+    static UrgentWaits waits;
+    return waits;
+}
+
+/// Longest time that a usual thread lets urgent ones go first, so that it always gets on.
+constexpr std::chrono::milliseconds longest_courtesy{50};
+
+void lock(std::mutex& driver) {
+    TraceSpan span("driver lock");
+    UrgentWaits& urgent = urgent_waits();
+    if (is_urgent) {
+        {
+            const std::lock_guard guard(urgent.mutex);
+            ++urgent.count;
+        }
+        driver.lock();
+        {
+            const std::lock_guard guard(urgent.mutex);
+            --urgent.count;
+        }
+        urgent.ended.notify_all();
+    } else {
+        {
+            std::unique_lock guard(urgent.mutex);
+            urgent.ended.wait_for(guard, longest_courtesy, [&] { return urgent.count == 0; });
+        }
+        driver.lock();
+    }
+    span.end_unless_shorter(std::chrono::microseconds(100));
+}
 
 }  // namespace
 
-DriverLock::DriverLock(std::mutex* driver) : driver_(driver) {
+DriverLock::DriverLock(std::mutex* driver, Urgency urgency) : driver_(driver) {
     assert(!held);
     if (!driver_) return;
-    driver_->lock();
+    is_urgent = urgency == Urgency::urgent;
+    lock(*driver_);
     held = driver_;
 }
 
@@ -36,7 +80,7 @@ DriverLock::Pause::Pause() : driver_(std::exchange(held, nullptr)) {
 
 DriverLock::Pause::~Pause() {
     if (!driver_) return;
-    driver_->lock();
+    lock(*driver_);
     held = driver_;
 }
 

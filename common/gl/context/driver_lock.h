@@ -12,9 +12,13 @@ namespace vantage {
 /// workaround for the same driver (pthread_mutex_destroy).
 class DriverLock {
   public:
+    enum class Urgency {
+        usual,
+        urgent,  ///< a thread with a deadline: gets the lock before usual threads that want it
+    };
     /// Waits for the lock. `driver` must outlive this object; null for drivers that need no lock.
     /// A thread may hold one lock at a time.
-    explicit DriverLock(std::mutex* driver);
+    explicit DriverLock(std::mutex* driver, Urgency urgency = Urgency::usual);
     ~DriverLock();
     DriverLock(const DriverLock&) = delete;
     DriverLock& operator=(const DriverLock&) = delete;

@@ -8,6 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
+#include "common/base/trace/trace.h"
 
 namespace vantage {
 namespace {
@@ -102,6 +103,8 @@ class JogDevices::Reader {
     }
 
     void take(const std::vector<std::uint8_t>& report, MonotonicTime now) {
+        TraceSpan span("wheel report");
+        span.in(TraceId::of_input(now), TraceFlow::begins);
         ++reports_;
         if (deck_.options_.raw_reports) push(DeckEvent::Kind::report, report, now);
         std::vector<JogEvent> events;

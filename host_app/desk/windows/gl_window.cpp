@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include "common/base/trace/trace.h"
 #include "common/gl/context/limits.h"
 #include "host_app/desk/desk_layout.h"
 #include "host_app/desk/windows/window_places.h"
@@ -68,6 +69,7 @@ void WindowScreen::present(GLFWwindow* window) const {
     glBlitFramebuffer(0, 0, size.width, size.height, 0, size.height, size.width, 0,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
     check_gl("showing the operator's desk");
+    const TraceSpan span("swap");
     glfwSwapBuffers(window);
 }
 

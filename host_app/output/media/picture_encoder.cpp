@@ -93,10 +93,12 @@ void PictureEncoder::set_quality(const EncoderSettings& settings) {
     if (name == x264) {
         av_opt_set(own, "preset", "veryfast", 0);
         if (settings.is_live) av_opt_set(own, "tune", "zerolatency", 0);
+        av_opt_set_int(own, "forced-idr", 1, 0);
         if (!settings.bit_rate_bps) av_opt_set_double(own, "crf", settings.quality, 0);
     } else if (name == nvenc) {
         av_opt_set(own, "preset", "p4", 0);
         if (settings.is_live) av_opt_set(own, "tune", "ull", 0);
+        av_opt_set_int(own, "forced-idr", 1, 0);
         av_opt_set(own, "rc", settings.bit_rate_bps ? "cbr" : "vbr", 0);
         if (!settings.bit_rate_bps) av_opt_set_double(own, "cq", settings.quality, 0);
     } else if (name == vaapi) {
@@ -133,7 +135,7 @@ void PictureEncoder::use_vaapi() {
     uploaded_.reset(av_frame_alloc());
 }
 
-void PictureEncoder::add(const ColourImage& picture, std::int64_t number) {
+void PictureEncoder::add(const ColourImage& picture, std::int64_t number, bool is_key) {
     AVFrame* frame = &converter_->convert(picture);
     if (uploaded_) {
         av_frame_unref(uploaded_.get());
@@ -143,6 +145,7 @@ void PictureEncoder::add(const ColourImage& picture, std::int64_t number) {
         frame = uploaded_.get();
     }
     frame->pts = number;
+    frame->pict_type = is_key ? AV_PICTURE_TYPE_I : AV_PICTURE_TYPE_NONE;
     if (const int code = avcodec_send_frame(context_.get(), frame); code < 0)
         fail("the encoder {} fails ({})", name(), reason(code));
 }

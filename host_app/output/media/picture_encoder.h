@@ -18,6 +18,8 @@ struct EncoderSettings {
     double quality = 20;    ///< x264's constant rate factor, 0 (lossless) .. 51, or the equivalent
     bool is_live = false;   ///< no reordered frames, and a key frame every second
     bool has_head = false;  ///< the container stores the codec's header once, at its start
+
+    bool operator==(const EncoderSettings&) const = default;
 };
 
 /// Names of the supported encoders in the order in which they are tried, fastest first.
@@ -38,8 +40,9 @@ class PictureEncoder {
     const AVCodecContext& context() const { return *context_; }
     std::string name() const { return context_->codec->name; }
 
-    /// Encodes a frame. Numbers ascend. Throws Error if the encoder fails.
-    void add(const ColourImage& picture, std::int64_t number);
+    /// Encodes a frame, as a key frame if `is_key`. Numbers ascend. Throws Error if the encoder
+    /// fails.
+    void add(const ColourImage& picture, std::int64_t number, bool is_key = false);
     /// Signals the end of the frames.
     void end();
     /// Next finished packet, valid until the next call; null if there is none now. Throws Error if

@@ -17,8 +17,7 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
         .options = {{"rist_profile", "main"},
                     {"buffer_size", std::to_string(latency_ms)},
                     {"pkt_size", "1316"}},
-        .encoder = format.encoder,
-        .encoding = stream_encoding(url, format),
+        .encoder = stream_encoder(url, format),
         .has_sound = format.has_sound};
     if (!passphrase.empty()) {
         settings.options.emplace_back("secret", passphrase);
@@ -27,6 +26,7 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
     return {.name = url.shown,
             .is_stream = true,
             .takes_sound = format.has_sound,
+            .encoder = settings.encoder,
             .open = [settings](const OutputPatience& patience) {
                 return std::make_unique<StreamTarget>(settings, patience);
             }};

@@ -17,8 +17,7 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
                                     .options = {{"mode", is_listening ? "listener" : "caller"},
                                                 {"latency", std::to_string(us_a_ms * latency_ms)},
                                                 {"pkt_size", "1316"}},
-                                    .encoder = format.encoder,
-                                    .encoding = stream_encoding(url, format),
+                                    .encoder = stream_encoder(url, format),
                                     .has_sound = format.has_sound,
                                     .is_listening = is_listening};
     // libsrt reports a refused connection like a missing peer.
@@ -31,6 +30,7 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
             .is_stream = true,
             .takes_sound = format.has_sound,
             .is_listening = is_listening,
+            .encoder = settings.encoder,
             .open = [settings](const OutputPatience& patience) {
                 return std::make_unique<StreamTarget>(settings, patience);
             }};

@@ -11,12 +11,12 @@ OutputPlan plan(const OutputUrl& url, const OutputFormat& format) {
         .url = fmt::format("udp://{}:{}", place.host, place.port),
         .options = {{"pkt_size", "1316"},
                     {"ttl", std::to_string(url.number("ttl", 1, most_ttl).value_or(usual_ttl))}},
-        .encoder = format.encoder,
-        .encoding = stream_encoding(url, format),
+        .encoder = stream_encoder(url, format),
         .has_sound = format.has_sound};
     return {.name = url.shown,
             .is_stream = true,
             .takes_sound = format.has_sound,
+            .encoder = settings.encoder,
             .open = [settings](const OutputPatience& patience) {
                 return std::make_unique<StreamTarget>(settings, patience);
             }};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <deque>
+#include <optional>
 
 #include "common/base/percentiles.h"
 #include "common/base/time/time.h"
@@ -21,15 +22,19 @@ class InputLatency {
     /// Drops all inputs, since they change no frame.
     void drop() { waiting_.clear(); }
     /// Records the hand-over of a frame with the camera of one step that was rendered for another
-    /// one, which is not later. The longest latency of the inputs in it counts.
-    void showed(std::uint64_t camera_step, std::uint64_t rendered_step, MonotonicTime now) {
+    /// one, which is not later. The longest latency of the inputs in it counts; returns when that
+    /// input came, or nothing if the frame shows no new input.
+    std::optional<MonotonicTime> showed(std::uint64_t camera_step, std::uint64_t rendered_step,
+                                        MonotonicTime now) {
         const auto is_shown = [&](const Input& input) {
             return input.step <= (input.only_flies ? camera_step : rendered_step);
         };
         const auto first = std::find_if(waiting_.begin(), waiting_.end(), is_shown);
-        if (first == waiting_.end()) return;
-        all_ms_.add(to_ms(now - first->time));
+        if (first == waiting_.end()) return std::nullopt;
+        const MonotonicTime came = first->time;
+        all_ms_.add(to_ms(now - came));
         std::erase_if(waiting_, is_shown);
+        return came;
     }
 
     bool is_waiting() const { return !waiting_.empty(); }

@@ -110,6 +110,10 @@ FlightPlan ShowOptions::plan(const StageConfig::View& view, FlightStore& flights
     return plan;
 }
 
+std::unique_ptr<TraceFile> ShowOptions::make_trace(const std::string& program) const {
+    return trace.empty() ? nullptr : std::make_unique<TraceFile>(trace, program, overwrite);
+}
+
 std::unique_ptr<JogDevices> ShowOptions::make_deck() const {
     if (!jog.value_or(!headless)) return nullptr;
     return std::make_unique<JogDevices>(make_system_jog_bus(), load_all_wheel_profiles(wheels));
@@ -204,6 +208,12 @@ void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
         ->allow_extra_args(false)
         ->group(group::output);
     command
+        .add_option("--trace", trace,
+                    "Write when each step of the way from input and rigs to the outputs ran, as a "
+                    "trace for Perfetto (JSON; docs/develop/testing.md)")
+        ->type_name("FILE")
+        ->group(group::expert);
+    command
         .add_option("--encoder", encoder,
                     fmt::format("Encode with one of {} (default: the first that works; the log "
                                 "names it)",
@@ -218,7 +228,7 @@ void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
         .add_option("--contact-sheet", contact_sheet,
                     "Write stills of the flight, with colour and disparity of a rig, to this file")
         ->group(group::output);
-    command.add_flag("--overwrite", overwrite, "Replace films and pictures that exist")
+    command.add_flag("--overwrite", overwrite, "Replace films, pictures and traces that exist")
         ->group(group::output);
     command.add_flag("--json", json, "Print the summary as one JSON object")->group(group::output);
 

@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "common/base/trace/trace_file.h"
 #include "common/config/stage_config.h"
 #include "host_app/desk/desk_arrangement.h"
 #include "host_app/flight/moves/flight_store.h"
@@ -22,7 +23,7 @@ struct ShowOptions {
     std::string path, flight, clips, desk, snapshot, film, contact_sheet, size, synthesiser, wheels,
         encoder, rate;
     std::string background, saved_background;
-    std::string metrics, web, audio;
+    std::string metrics, web, audio, trace;
     std::optional<double> audio_delay_ms;
     std::vector<std::string> outputs, controls;
     std::string quality = "auto";
@@ -48,6 +49,8 @@ struct ShowOptions {
     ClipStore clip_store(const std::string& beside, double pulse_rate_hz) const;
     /// Nothing without a window. Throws Error as load_desk() does.
     std::optional<DeskStore> desk_store(const std::string& beside) const;
+    /// Begins the trace of --trace; null without it. Throws Error as TraceFile does.
+    std::unique_ptr<TraceFile> make_trace(const std::string& program) const;
     /// Null without jog wheels.
     std::unique_ptr<JogDevices> make_deck() const;
     /// Opens the sound of --audio, or else plays `source`; null: no sound. `tap` gives the sound to

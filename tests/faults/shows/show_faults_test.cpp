@@ -1,10 +1,16 @@
 // What a show does while programs hang or die, and clocks are set.
 #include <csignal>
+#include <cstring>
+#include <fstream>
 #include <string>
 
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
+#include "tests/faults/shows/control_group.h"
 #include "tests/faults/shows/two_rig_show.h"
 #include "tests/support/eventually.h"
 
@@ -13,7 +19,22 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class ShowFaults : public TwoRigShow {};
+class ShowFaults : public TwoRigShow {
+  protected:
+    /// Ends the host. `restarts` is how often the far rig was started again.
+    void end_and_expect_trouble_of_far_alone(int restarts) {
+        host_->send_signal(SIGINT);
+        const ProgramResult result = host_->wait();
+        const nlohmann::json summary = nlohmann::json::parse(result.out);
+        expect_ticks_held(summary);
+        const nlohmann::json far = summary["rigs"][0], near = summary["rigs"][1];
+        EXPECT_EQ(far["outages"]["restarts"], restarts);
+        EXPECT_EQ(near["outages"]["count"], 0);
+        EXPECT_EQ(near["link"]["lost"], 0) << "the rig beside has noticed nothing";
+        expect_balanced(far);
+        expect_balanced(near);
+    }
+};
 
 TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     start_host({"--seconds", "600"});
@@ -58,6 +79,83 @@ TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     expect_balanced(far);
     expect_balanced(near);
     EXPECT_EQ(summary["signal"], "live");
+}
+
+TEST_F(ShowFaults, ARigThatIsThrottledLosesOnlyItsOwnFramesAndIsNamed) {
+    if (const std::string reason = ControlGroup::reason_against("cpu"); !reason.empty())
+        GTEST_SKIP() << "SKIPPED: " << reason;
+    far_->send_signal(SIGTERM);
+    far_->wait();
+    const ControlGroup group("cpu");
+    group.run_inside([&] { far_ = start_far(); });
+    wait_for(*far_, "publishing on");
+    start_host({"--seconds", "600"});
+    wait_for(*host_, " frames, ");
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
+
+    // As a processor does that is too hot, but by more.
+    group.limit_processor(0.01);
+    ASSERT_TRUE(eventually([&] {
+        return far_is("gone") ||
+               count_of("rig far: its frames arrive after the latency budget") > 0;
+    })) << host_->err();
+    wait_for_progress();
+    wait_for_progress();
+    EXPECT_LE(sets_until_far_is_back([&] { group.limit_processor(0); }), sets_to_recover)
+        << host_->err();
+
+    end_and_expect_trouble_of_far_alone(0);
+    far_->send_signal(SIGTERM);
+    far_->wait();
+}
+
+/// How readily the kernel kills this process and those that it starts when memory is short.
+void set_oom_score(int score) {
+    if (!(std::ofstream("/proc/self/oom_score_adj") << score << std::flush))
+        ADD_FAILURE() << "cannot set oom_score_adj";
+}
+
+/// A process that takes memory until there is none, and holds it.
+pid_t start_hog() {
+    const pid_t hog = ::fork();
+    if (hog != 0) return hog;
+    constexpr std::size_t piece_bytes = 1 << 20;
+    while (true) {
+        void* piece = ::mmap(nullptr, piece_bytes, PROT_READ | PROT_WRITE,
+                             MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (piece == MAP_FAILED) ::pause();
+        std::memset(piece, 1, piece_bytes);
+    }
+}
+
+TEST_F(ShowFaults, ARigThatTheKernelKillsForMemoryIsGoneAloneAndComesBack) {
+    if (const std::string reason = ControlGroup::reason_against("memory"); !reason.empty())
+        GTEST_SKIP() << "SKIPPED: " << reason;
+    far_->send_signal(SIGTERM);
+    far_->wait();
+    const ControlGroup group("memory");
+    constexpr std::int64_t limit_bytes = 700'000'000;
+    group.set("memory.limit_in_bytes", limit_bytes);
+    set_oom_score(1000);
+    group.run_inside([&] { far_ = start_far(); });
+    wait_for(*far_, "publishing on");
+    set_oom_score(0);
+    start_host({"--seconds", "600"});
+    wait_for(*host_, " frames, ");
+    ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
+
+    pid_t hog = -1;
+    group.run_inside([&] { hog = start_hog(); });
+    EXPECT_EQ(far_->wait().status, 128 + SIGKILL);
+    ASSERT_TRUE(eventually([&] { return far_is("gone"); })) << host_->err();
+    ::kill(hog, SIGKILL);
+    ::waitpid(hog, nullptr, 0);
+    wait_for_progress();
+    far_ = start_far();
+    wait_for(*far_, "publishing on");
+    EXPECT_LE(sets_until_far_is_back([] {}), sets_to_recover) << host_->err();
+
+    end_and_expect_trouble_of_far_alone(1);
 }
 
 TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {

@@ -1,7 +1,12 @@
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -63,6 +68,21 @@ class LiveProcesses : public testing::Test {
     static void wait_for(const ChildProgram& program, const char* words) {
         for (int i = 0; i < 6000 && program.err().find(words) == std::string::npos; ++i)
             usleep(10'000);
+    }
+
+    /// Turns the camera by 18 degrees from the first rig's position, in a window of 640x360.
+    static void turn_by_mouse_and_quit(const VirtualScreen& screen, const ChildProgram& host) {
+        // The camera is at the first rig once the stage is known.
+        wait_for(host, "azimuth -12.0");
+        screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
+        // Show the picture alone, so that it is as wide as the window.
+        screen.operator_input({"key", "Tab", "sleep", "1"});
+        // Drag a tenth of the picture's width to the right: the stage turns by 18 degrees
+        // from the first rig's position.
+        screen.operator_input({"mousemove", "320", "120", "mousedown", "1", "mousemove", "384",
+                               "120", "mouseup", "1"});
+        wait_for(host, "azimuth -30.0");
+        screen.operator_input({"key", "Escape", "Escape"});
     }
 
     TemporaryFolder folder_;
@@ -239,6 +259,7 @@ TEST_F(LiveProcesses, RefuseInvalidOptionsBeforeConnecting) {
         std::string reason;
     } cases[] = {{{"--snapshot", file("there.png")}, "there.png is there already"},
                  {{"--contact-sheet", file("there.png")}, "--overwrite"},
+                 {{"--trace", file("there.png")}, "there.png is there already"},
                  {{"--synth", "hologram"}, "hologram"},
                  {{"--size", "12x80000"}, "12x80000"},
                  {{"--snapshot", "/nowhere/at/all.png"}, "/nowhere/at/all.png"},
@@ -271,23 +292,88 @@ TEST_F(LiveProcesses, FollowTheMouseInAWindowUntilEscape) {
                       {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json",
                        "--no-jog", "--snapshot", file("screen.png"), "--seconds", "200"},
                       host_folder.path(), {screen.environment()});
-    // The camera is at the first rig once the stage is known.
-    wait_for(host, "azimuth -12.0");
-    screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
-    // Show the picture alone, so that it is as wide as the window.
-    screen.operator_input({"key", "Tab", "sleep", "1"});
-    // Drag a tenth of the picture's width to the right: the stage turns by 18 degrees
-    // from the first rig's position.
-    screen.operator_input(
-        {"mousemove", "320", "120", "mousedown", "1", "mousemove", "384", "120", "mouseup", "1"});
-    wait_for(host, "azimuth -30.0");
-    screen.operator_input({"key", "Escape", "Escape"});
+    turn_by_mouse_and_quit(screen, host);
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);
     EXPECT_NEAR(summary["camera"]["azimuth_deg"].get<double>(), -12 - 18, 0.1) << result.err;
     EXPECT_NEAR(summary["camera"]["elevation_deg"].get<double>(), 10, 0.1);
     EXPECT_EQ(read_colour_image(file("screen.png")).size(), cv::Size(640, 360));
+}
+
+/// The places of every flow in a trace, in the order of time: "stf".
+std::map<std::string, std::string> flows_of(nlohmann::json events) {
+    std::stable_sort(events.begin(), events.end(), [](const auto& a, const auto& b) {
+        return a.value("ts", 0.0) < b.value("ts", 0.0);
+    });
+    std::map<std::string, std::string> flows;
+    for (const nlohmann::json& event : events)
+        if (event.contains("id")) flows[event["id"]] += event["ph"].get<std::string>();
+    return flows;
+}
+
+/// The number of flows of a kind (TraceId) whose places match this pattern.
+int flows_like(const nlohmann::json& events, char kind, const char* pattern) {
+    int count = 0;
+    for (const auto& [id, places] : flows_of(events))
+        count += id[2] == kind && std::regex_match(places, std::regex(pattern));
+    return count;
+}
+
+TEST_F(LiveProcesses, TraceEveryStageFromTheOperatorToTheOutputs) {
+    if (!VirtualScreen::is_there()) GTEST_SKIP() << "SKIPPED: Xvfb or xdotool is not installed";
+    const VirtualScreen screen(640, 360);
+    start_rig("left", -12);
+    start_rig("right", 12);
+    const TemporaryFolder host_folder;
+    ChildProgram host(
+        VANTAGE_PROGRAM,
+        {"live", "--stage", file("stage.toml"), "--size", "640x360", "--json", "--no-jog",
+         "--record", file("film.mkv"), "--trace", file("trace.json"), "--seconds", "200"},
+        host_folder.path(), {screen.environment()});
+    turn_by_mouse_and_quit(screen, host);
+    const ProgramResult result = host.wait();
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json events =
+        nlohmann::json::parse(std::ifstream(file("trace.json")), nullptr, false);
+    ASSERT_FALSE(events.is_discarded());
+    std::map<std::string, int> spans;
+    std::set<std::string> tracks;
+    for (const nlohmann::json& event : events) {
+        spans[event["name"]] += event["ph"] == "X";
+        if (event["name"] == "thread_name") tracks.insert(event["args"]["name"]);
+    }
+    for (const char* stage :
+         {"operator input", "tick", "camera sample", "picture", "render", "fence wait", "readback",
+          "hand over", "hand to output", "encode and write", "window events", "desk", "swap",
+          "receive", "decode", "frame set", "instant", "take views", "prepare"})
+        EXPECT_GT(spans[stage], 0) << stage;
+    for (const char* track : {"programme", "picture", "receive", "decode", "instants"})
+        EXPECT_EQ(tracks.count(track), 1u) << track;
+    EXPECT_EQ(tracks.count("output film " + file("film.mkv")), 1u);
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    EXPECT_GE(spans["hand over"], summary["new_pictures"].get<int>());
+    // The way of the input, of the camera's step, of the tick and of the frame sets.
+    EXPECT_GT(flows_like(events, '4', "s+t+f"), 0);
+    EXPECT_GT(flows_like(events, '2', "st+f"), 0);
+    EXPECT_GT(flows_like(events, '3', "st"), 0);
+    EXPECT_GT(flows_like(events, '1', "st{2,}f+"), 0);
+    EXPECT_GT(flows_like(events, '5', "sf"), 0);
+    EXPECT_EQ(result.err.find("lacks"), std::string::npos) << result.err;
+}
+
+TEST_F(LiveProcesses, LeaveATraceThatCanBeReadWhenKilled) {
+    start_rig("left", -12);
+    start_rig("right", 12);
+    const auto host = start_host({"--trace", file("trace.json"), "--wait", "60"});
+    wait_for(*host, first_progress);
+    host->send_signal(SIGKILL);
+    EXPECT_EQ(host->wait().status, 128 + SIGKILL);
+    std::stringstream text;
+    text << std::ifstream(file("trace.json")).rdbuf();
+    const nlohmann::json events = nlohmann::json::parse(text.str() + "]", nullptr, false);
+    ASSERT_FALSE(events.is_discarded());
+    EXPECT_GT(events.size(), 50u);
 }
 
 TEST_F(LiveProcesses, SurviveAGpuResetWithoutLosingATick) {

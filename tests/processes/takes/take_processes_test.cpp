@@ -1,14 +1,17 @@
+#include <array>
 #include <csignal>
 #include <fstream>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "common/base/error.h"
 #include "common/config/stage_config.h"
 #include "common/receive/stage_receiver.h"
 #include "common/take/take_check.h"
@@ -142,6 +145,62 @@ TEST_F(TakeProcesses, ATakeOfAKilledHostOpensAndLacksASecondAtMost) {
     EXPECT_LE(verdict.damage.size(), 2u);
     for (const TakeDamage& damage : verdict.damage)
         EXPECT_NE(damage.words.find("are truncated"), std::string::npos) << damage.words;
+}
+
+TEST_F(TakeProcesses, TakesOfTwoHostsTogetherLackNoFrameWhileOneAfterTheOtherIsReplaced) {
+    // An observer, which notes every pulse of each rig.
+    std::mutex mutex;
+    std::array<std::set<std::uint64_t>, 2> sent;
+    const StageReceiver tap(
+        load_stage_config(file("stage.toml")), StageReceiver::Purpose::film,
+        [&](const ArrivedFrame& frame) {
+            const std::lock_guard lock(mutex);
+            sent[frame.rig].insert(decode_frame_head(frame.packed->header).frame.trigger_index);
+        });
+    const auto start = [&](const std::string& take) {
+        return std::make_unique<ChildProgram>(VANTAGE_PROGRAM, live({"--take", file(take)}),
+                                              folder_.path());
+    };
+    const auto pulses_of = [&](const std::string& take, std::size_t rig) {
+        std::set<std::uint64_t> pulses;
+        try {
+            const TakeReader reader(file(take));
+            for (const TakeReader::Frame& frame : reader.frames(rig)) pulses.insert(frame.pulse);
+        } catch (const Error&) {
+        }
+        return pulses;
+    };
+    const auto has_more = [&](const std::string& take) {
+        const std::size_t before = pulses_of(take, 1).size();
+        return eventually([&] { return pulses_of(take, 1).size() >= before + 5; });
+    };
+    const auto first = start("first.mkv"), second = start("second.mkv");
+    ASSERT_TRUE(has_more("first.mkv") && has_more("second.mkv")) << second->err();
+    first->send_signal(SIGKILL);
+    first->wait();
+    ASSERT_TRUE(has_more("second.mkv")) << second->err();
+    const auto third = start("third.mkv");
+    ASSERT_TRUE(has_more("third.mkv")) << third->err();
+    second->send_signal(SIGINT);
+    second->wait();
+    ASSERT_TRUE(has_more("third.mkv")) << third->err();
+    third->send_signal(SIGINT);
+    third->wait();
+
+    for (const std::size_t rig : {0, 1}) {
+        std::set<std::uint64_t> taken;
+        for (const char* take : {"first.mkv", "second.mkv", "third.mkv"})
+            taken.merge(pulses_of(take, rig));
+        ASSERT_GE(taken.size(), 20u);
+        const std::lock_guard lock(mutex);
+        std::size_t compared = 0;
+        for (const std::uint64_t pulse : sent.at(rig)) {
+            if (pulse < *taken.begin() || pulse > *taken.rbegin()) continue;
+            EXPECT_EQ(taken.count(pulse), 1u) << "pulse " << pulse << " of rig " << rig;
+            ++compared;
+        }
+        EXPECT_GE(compared, 20u);
+    }
 }
 
 TEST_F(TakeProcesses, ARigKeepsATakeOfItsOwnWhichClosesTheGapsOfTheHosts) {

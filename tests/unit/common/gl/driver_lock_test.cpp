@@ -70,6 +70,33 @@ TEST(DriverLock, IsFreeDuringAPause) {
     EXPECT_FALSE(std::async(std::launch::async, [&] { return driver.try_lock(); }).get());
 }
 
+TEST(DriverLock, GoesToAnUrgentThreadFirst) {
+    std::mutex driver;
+    std::atomic<bool> has_begun = false, is_done = false;
+    std::atomic<int> pauses = 0;
+    std::thread busy([&] {
+        const DriverLock turn(&driver);
+        has_begun = true;
+        // Releases the lock for moments only, as a thread that prepares does.
+        while (!is_done) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            const DriverLock::Pause pause;
+            ++pauses;
+        }
+    });
+    while (!has_begun) std::this_thread::yield();
+    int most = 0;
+    for (int i = 0; i < 30; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(3));
+        const int before = pauses;
+        const DriverLock turn(&driver, DriverLock::Urgency::urgent);
+        most = std::max(most, pauses - before);
+    }
+    is_done = true;
+    busy.join();
+    EXPECT_LE(most, 2) << "the one that was under way, and the next";
+}
+
 TEST(DriverLock, DoesNothingWithoutAMutex) {
     const DriverLock turn(nullptr);
     const DriverLock::Pause pause;

@@ -275,14 +275,18 @@ TEST_F(SoundStreamTest, AStreamThatIsKeptWholeIsInStepWithThePicture) {
     const auto settings = StreamTarget::Settings{
         .url = "file:" + at("stream.ts"),
         .options = {},
-        .encoder = "libx264",
-        .encoding = stream_encoding(OutputUrl::parse("udp://127.0.0.1:1"), format_),
+        .encoder = stream_encoder(OutputUrl::parse("udp://127.0.0.1:1"), format_),
         .has_sound = true};
     const OutputPatience patience;
     StreamTarget target(settings, patience);
+    PictureEncoder encoder("libx264", settings.encoder->settings());
     for (std::uint64_t tick = 0; tick < 110; ++tick) {
         const ProgrammePicture given = picture(tick);
-        target.write(given.picture, static_cast<std::int64_t>(tick), "");
+        encoder.add(given.picture, static_cast<std::int64_t>(tick));
+        const AVPacket* packet = encoder.next();
+        ASSERT_TRUE(packet);
+        target.write_encoded({.packet = {packet, [](const AVPacket*) {}}, .tick = tick},
+                             static_cast<std::int64_t>(tick));
         target.hear(*given.sound, static_cast<std::int64_t>(tick));
     }
     target.finish();
