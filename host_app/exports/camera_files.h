@@ -6,7 +6,7 @@
 #include <span>
 
 #include "common/take/take_reader.h"
-#include "host_app/control/freed/freed_message.h"
+#include "host_app/control/tracking/freed_message.h"
 
 namespace vantage {
 

@@ -13,7 +13,6 @@
 #include "common/receive/frame_set.h"
 #include "common/wire/codec/colour_codec.h"
 #include "host_app/control/ports/command_intake.h"
-#include "host_app/control/ports/message_budget.h"
 #include "host_app/web/board_watch.h"
 
 namespace vantage {

@@ -7,8 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/time/pulse_grid.h"
 #include "host_app/background/background_file.h"
-#include "host_app/control/ports/freed_sink.h"
-#include "host_app/control/ports/opentrackio_sink.h"
+#include "host_app/control/ports/tracking_sinks.h"
 #include "host_app/output/media/picture_encoder.h"
 #include "host_app/output/picture_target.h"
 
@@ -52,11 +51,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         settings.format.height_px = wanted.height;
     }
     for (const std::string& url : outputs)
-        if (is_freed_url(url))
-            (void)make_freed_sink(url, settings.rate_hz);
-        else if (is_opentrackio_url(url))
-            (void)make_opentrackio_sink(url, settings.rate_hz, settings.pulse_rate_hz);
-        else
+        if (!make_tracking_sink(url, settings.rate_hz, settings.pulse_rate_hz))
             settings.outputs.push_back(url);
     if (!film.empty()) settings.outputs.insert(settings.outputs.begin(), "file:" + film);
     OutputSupervisor::check(output_settings(settings));

@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "host_app/control/ports/messages/line_splitter.h"
 #include "host_app/control/ports/messages/rosstalk_map.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -9,7 +9,7 @@
 #include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
 #include "host_app/control/ports/messages/osc_message.h"
-#include "host_app/control/ports/udp_socket.h"
+#include "host_app/control/ports/sockets.h"
 #include "host_app/control/table/control_command.h"
 
 namespace vantage {

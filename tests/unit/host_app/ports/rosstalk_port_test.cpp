@@ -1,6 +1,5 @@
 #include <fstream>
 
-#include "host_app/control/ports/messages/line_splitter.h"
 #include "host_app/control/ports/messages/rosstalk_map.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"

@@ -1,14 +1,43 @@
-#include "host_app/control/ports/opentrackio_sink.h"
+#include "host_app/control/ports/tracking_sinks.h"
 
 #include "common/wire/random_id.h"
-#include "host_app/control/opentrackio/opentrackio_sample.h"
 #include "host_app/control/ports/camera_pacer.h"
-#include "host_app/control/ports/opentrackio_place.h"
-#include "host_app/control/ports/udp_socket.h"
+#include "host_app/control/ports/sockets.h"
+#include "host_app/control/tracking/freed_message.h"
+#include "host_app/control/tracking/opentrackio_sample.h"
 #include "host_app/output/frame_set_timecode.h"
 
 namespace vantage {
 namespace {
+
+constexpr int most_camera_id = 255;
+
+class FreedSink final : public PictureSink {
+  public:
+    FreedSink(const OutputUrl& url, double rate_hz)
+        : name_(url.shown),
+          to_(resolve(network_place_of(url), "output " + url.shown)),
+          socket_(UdpSocket::sending(to_)),
+          pacer_(rate_hz, [this](const CameraTick& tick) { send(tick); }) {
+        url.require_options_of({"camera"});
+        id_ = static_cast<std::uint8_t>(url.number("camera", 0, most_camera_id).value_or(1));
+    }
+    std::string name() const override { return name_; }
+    void take(const ProgrammePicture& picture) override { pacer_.take(camera_tick_of(picture)); }
+    void finish() override { pacer_.stop(); }
+
+  private:
+    void send(const CameraTick& tick) {
+        // UDP has no receipt: a missing receiver is not an error.
+        (void)socket_.send(encode_freed(freed_camera(tick.camera, id_)), to_);
+    }
+
+    std::string name_;
+    SocketAddress to_;
+    UdpSocket socket_;
+    std::uint8_t id_ = 1;
+    CameraPacer pacer_;  ///< the last member: it uses the others until it has ended
+};
 
 /// Above this rate frames share numbers of time code.
 constexpr double most_timecode_hz = 60;
@@ -81,11 +110,21 @@ class OpentrackioSink final : public PictureSink {
 
 }  // namespace
 
-bool is_opentrackio_url(const std::string& url) { return url.starts_with("opentrackio:"); }
+OutputUrl with_opentrackio_group(OutputUrl url) {
+    if (url.place == "multicast")
+        url.place = "239.135.1." +
+                    std::to_string(url.number("source", 1, most_opentrackio_source).value_or(1)) +
+                    ":55555";
+    return url;
+}
 
-std::unique_ptr<PictureSink> make_opentrackio_sink(const std::string& url, double rate_hz,
-                                                   double pulse_rate_hz) {
-    return std::make_unique<OpentrackioSink>(OutputUrl::parse(url), rate_hz, pulse_rate_hz);
+std::unique_ptr<PictureSink> make_tracking_sink(const std::string& url, double rate_hz,
+                                                double pulse_rate_hz) {
+    if (url.starts_with("freed:"))
+        return std::make_unique<FreedSink>(OutputUrl::parse(url), rate_hz);
+    if (url.starts_with("opentrackio:"))
+        return std::make_unique<OpentrackioSink>(OutputUrl::parse(url), rate_hz, pulse_rate_hz);
+    return nullptr;
 }
 
 }  // namespace vantage

@@ -1,4 +1,4 @@
-#include "host_app/control/freed/freed_message.h"
+#include "host_app/control/tracking/freed_message.h"
 
 #include <algorithm>
 #include <cmath>
