@@ -4,10 +4,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/base/files/embedded_text.h"
 #include "common/base/time/time.h"
 #include "common/image/image.h"
 #include "common/receive/frame_set.h"
@@ -16,6 +18,9 @@
 #include "host_app/web/board_watch.h"
 
 namespace vantage {
+
+/// The page for tablets and phones: one HTML file without any other.
+std::span<const EmbeddedText> embedded_web_page();
 
 /// A request to the web desk.
 struct WebRequest {

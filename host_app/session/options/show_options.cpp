@@ -1,18 +1,43 @@
 #include "host_app/session/options/show_options.h"
 
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <numbers>
 
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "common/base/error.h"
 #include "common/base/time/pulse_grid.h"
 #include "host_app/background/background_file.h"
 #include "host_app/control/ports/tracking_sinks.h"
 #include "host_app/output/media/picture_encoder.h"
-#include "host_app/output/picture_target.h"
 
 namespace vantage {
 namespace {
+
+/// Checks that an image can be saved to the path, before the flight whose result it is. Throws
+/// Error for a wrong extension, for a folder that is missing or not writable, and for an existing
+/// file that may not be replaced.
+void require_picture_target(const std::filesystem::path& path, bool may_replace) {
+    const std::string extension = path.extension().string();
+    if (extension != ".png" && extension != ".jpg")
+        fail("cannot write {}: a picture is a .png or .jpg file, not '{}'", path.string(),
+             extension);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        fail("cannot write {}: it is a folder", path.string());
+    if (!may_replace && std::filesystem::exists(path, ignored))
+        fail(
+            "{} is there already, and a picture is not replaced without being asked: take another "
+            "name, or --overwrite",
+            path.string());
+    const std::filesystem::path folder =
+        path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    if (access(folder.c_str(), W_OK) != 0)
+        fail("cannot write {}: its folder: {}", path.string(), std::strerror(errno));
+}
 
 OrbitView start_view(const StageConfig::View& view) {
     constexpr double rad = std::numbers::pi / 180;
