@@ -2,7 +2,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
-#include "host_app/camera_paths/camera_path_file.h"
+#include "host_app/camera_paths/camera_path.h"
 #include "host_app/control/tracking/freed_message.h"
 
 namespace vantage {

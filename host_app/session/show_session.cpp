@@ -10,13 +10,13 @@
 #include "common/image/image_file.h"
 #include "host_app/control/ports/tracking_sinks.h"
 #include "host_app/desk/feed/desk_feed.h"
-#include "host_app/desk/feed/stage_points.h"
+#include "host_app/desk/feed/stage_map.h"
 #include "host_app/desk/windows/operator_window.h"
 #include "host_app/desk/windows/screen_windows.h"
 #include "host_app/metrics/open_metrics.h"
 #include "host_app/output/frame_set_timecode.h"
 #include "host_app/output/output_supervisor.h"
-#include "host_app/replay/past_time.h"
+#include "host_app/replay/transport.h"
 #include "host_app/session/report/show_log.h"
 
 namespace vantage {

@@ -24,7 +24,7 @@ extern "C" {
 #include "common/base/error.h"
 #include "common/base/files/output_path.h"
 #include "common/base/time/pulse_grid.h"
-#include "host_app/ltc/ltc_writer.h"
+#include "host_app/ltc/ltc_sound.h"
 #include "host_app/output/output_target.h"
 
 namespace vantage {

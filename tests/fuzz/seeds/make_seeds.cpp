@@ -24,7 +24,7 @@
 #include "common/wire/link_message.h"
 #include "host_app/background/background_file.h"
 #include "host_app/control/tracking/opentrackio_sample.h"
-#include "host_app/ltc/ltc_writer.h"
+#include "host_app/ltc/ltc_sound.h"
 #include "tests/fuzz/seeds/seed_frames.h"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "host_app/desk/windows/key_caps.h"
+#include "host_app/desk/windows/keyboard.h"
 
 #include <utility>
 

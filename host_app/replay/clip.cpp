@@ -1,4 +1,4 @@
-#include "host_app/replay/play_list.h"
+#include "host_app/replay/clip.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,8 @@
-#include "host_app/desk/feed/stage_points.h"
+#include "host_app/desk/feed/stage_map.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <Eigen/LU>
@@ -54,6 +55,17 @@ constexpr double performer_radius_m = 0.45, above_floor_m = 0.2, highest_m = 2.4
 constexpr std::size_t min_performer_points = 40;
 /// Iterations of the mean shift; a performer moves a few centimetres between frame sets.
 constexpr int shifts = 4;
+
+constexpr int sectors = 36, rings = 6;
+constexpr std::size_t fields_at_once = 45;
+
+bool is_like(const OrbitView& a, const OrbitView& b) {
+    // Smaller changes are not visible in the map.
+    constexpr double near_m = 0.05, near_rad = 0.03;
+    return (a.pivot_m - b.pivot_m).norm() < near_m &&
+           std::abs(a.elevation_rad - b.elevation_rad) < near_rad &&
+           std::abs(a.field_of_view_rad - b.field_of_view_rad) < near_rad;
+}
 
 }  // namespace
 
@@ -126,6 +138,38 @@ std::optional<Eigen::Vector3d> foreground_near(const FrameSet& set,
         middle = sum / static_cast<double>(count);
     }
     return Eigen::Vector3d(middle.x(), pivot_m.y(), middle.y());
+}
+
+void CorridorFields::begin(const std::shared_ptr<const Corridor>& corridor, const OrbitView& view,
+                           double reach_m) {
+    corridor_ = corridor;
+    view_ = view;
+    next_ = 0;
+    coming_.clear();
+    const double width_rad = 2 * std::numbers::pi / sectors;
+    const double ring_m = reach_m / rings;
+    // The innermost ring is the pivot itself, where no camera flies.
+    for (int ring = 1; ring < rings; ++ring)
+        for (int sector = 0; sector < sectors; ++sector)
+            coming_.push_back({sector * width_rad, width_rad, ring * ring_m, (ring + 1) * ring_m});
+}
+
+void CorridorFields::follow(const std::shared_ptr<const Corridor>& corridor, const OrbitView& view,
+                            double reach_m) {
+    if (!corridor) return;
+    if (corridor != corridor_ || (next_ == coming_.size() && !is_like(view, view_)))
+        begin(corridor, view, reach_m);
+    for (std::size_t i = 0; i < fields_at_once && next_ < coming_.size(); ++i, ++next_) {
+        DeskPlan::Field& field = coming_[next_];
+        OrbitView there = view_;
+        there.azimuth_rad = field.azimuth_rad;
+        there.distance_m = 0.5 * (field.from_m + field.to_m);
+        field.place = Corridor::place_of(corridor_->of(there.camera()).share);
+    }
+    if (next_ == coming_.size()) {
+        fields_ = coming_;
+        shown_ = view_;
+    }
 }
 
 }  // namespace vantage
