@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "common/config/calibration_file.h"
-#include "common/config/yaml_section.h"
+#include "common/config/yaml/yaml_section.h"
 #include "common/geometry/camera_model.h"
 
 namespace vantage {

@@ -1,4 +1,4 @@
-#include "common/config/yaml_section.h"
+#include "common/config/yaml/yaml_section.h"
 
 #include <algorithm>
 #include <cmath>

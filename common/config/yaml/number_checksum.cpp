@@ -1,9 +1,9 @@
-#include "common/config/number_checksum.h"
+#include "common/config/yaml/number_checksum.h"
 
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "common/config/camera_yaml.h"
+#include "common/config/yaml/camera_yaml.h"
 
 namespace vantage {
 

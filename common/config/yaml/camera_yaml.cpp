@@ -1,4 +1,4 @@
-#include "common/config/camera_yaml.h"
+#include "common/config/yaml/camera_yaml.h"
 
 #include <optional>
 #include <string>
