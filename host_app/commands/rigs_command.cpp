@@ -24,7 +24,7 @@
 #include "host_app/session/report/live_report.h"
 #include "host_app/session/sync_proof.h"
 #include "host_app/takes/clock_time.h"
-#include "host_app/takes/kept_fetch.h"
+#include "host_app/takes/rig_fetch.h"
 
 namespace vantage {
 namespace {

@@ -39,11 +39,8 @@ Eigen::Matrix3d CameraState::K(int width_px, int height_px) const {
 }
 
 bool is_same_view(const CameraState& a, const CameraState& b) {
-    const Eigen::AngleAxisd turn(a.world_from_camera.linear().transpose() *
-                                 b.world_from_camera.linear());
-    const double shift_m =
-        (a.world_from_camera.translation() - b.world_from_camera.translation()).norm();
-    return std::abs(turn.angle()) < same_angle_rad && shift_m < same_angle_rad * a.focus_m &&
+    return std::abs(turn_of(a, b).angle()) < same_angle_rad &&
+           shift_of(a, b).norm() < same_angle_rad * a.focus_m &&
            std::abs(a.field_of_view_rad - b.field_of_view_rad) < same_angle_rad;
 }
 

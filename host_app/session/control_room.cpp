@@ -129,7 +129,7 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
             timecodes_.emplace(show.settings().pulse_rate_hz, show.settings().pulse_rate_hz);
         lamps.timecode = timecodes_->of(*state.picture->job.instant->set);
     }
-    lamps_.show(lamps);
+    lamps_.put(lamps);
 }
 
 void ControlRoom::show_replay(const ProgrammeState& state) {

@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "common/base/time/time.h"
+#include "common/config/stage_config.h"
 #include "common/receive/rig_link.h"
 #include "common/take/kept_frame.h"
+#include "common/take/take_reader.h"
 
 namespace vantage {
 
@@ -147,6 +149,24 @@ class RigFetch {
     double expected_bytes_ = 0;  ///< size of the last frame
     std::optional<MonotonicTime> silent_since_;
     FetchStats stats_;
+};
+
+/// Fetches the rigs' own recordings to this host.
+struct KeptFetch {
+    /// The pulses to fetch, for a rig's TAI offset.
+    std::function<PulseRange(int tai_offset_s)> range;
+    std::shared_ptr<const TakeReader> take;  ///< its frames are not fetched; may be null
+    std::vector<std::string> rigs;           ///< empty: all rigs of the stage
+    std::filesystem::path folder;            ///< existing folder for the files
+    double bytes_s = 20e6;                   ///< total rate limit
+    std::chrono::nanoseconds patience = std::chrono::seconds(10);  ///< with a silent rig
+
+    using Progress = std::function<void(const std::vector<FetchStats>&)>;
+    /// Fetches from all rigs in parallel, and returns when each has sent all it has or failed, or
+    /// when `is_stopped`. `progress` is called now and then. Throws Error for invalid keys,
+    /// endpoints and names, and if the disk fails.
+    std::vector<FetchStats> run(const StageConfig& stage, const std::function<bool()>& is_stopped,
+                                const Progress& progress) const;
 };
 
 }  // namespace vantage

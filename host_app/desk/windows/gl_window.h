@@ -9,7 +9,7 @@
 #include "common/gl/objects/framebuffer.h"
 #include "common/gl/objects/texture.h"
 #include "host_app/desk/desk_arrangement.h"
-#include "host_app/desk/windows/style.h"
+#include "host_app/desk/windows/pen.h"
 #include "host_app/desk/windows/ui_renderer.h"
 
 struct GLFWmonitor;

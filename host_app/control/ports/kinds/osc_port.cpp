@@ -154,7 +154,7 @@ class OscPort final : public ControlPort {
         const bool is_all = is_all_due_ || now - told_all_ >= all_again;
         if (is_all) told_all_ = now;
         is_all_due_ = false;
-        const ShowLamps shown = bench_.lamps.shown();
+        const ShowLamps shown = bench_.lamps.state();
         for (const Lamp& lamp : lamps()) {
             const LampValue value = lamp.of(shown);
             LampValue& last = last_values_[lamp.name];

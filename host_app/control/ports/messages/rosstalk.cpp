@@ -1,5 +1,3 @@
-#include "host_app/control/ports/messages/rosstalk_map.h"
-
 #include <charconv>
 
 #include <fmt/format.h>
@@ -7,6 +5,7 @@
 #include "common/base/cli/nearest_name.h"
 #include "common/base/files/atomic_file.h"
 #include "common/config/toml_reader.h"
+#include "host_app/control/ports/messages/rosstalk.h"
 
 namespace vantage {
 namespace {
