@@ -1,5 +1,6 @@
 # How every target of Vantage is built: language level, warnings, sanitizers, and five helpers.
-#   vantage_library(NAME ROOMS ... DEPENDS ...)  a static library of all *.cpp of the current folder and of its subfolders ROOMS
+#   vantage_library(NAME IN ... ROOMS ... DEPENDS ...)  a static library of all *.cpp of the folder IN, by default the current
+#                                          one, and of its subfolders ROOMS
 #   vantage_command_library(NAME ...)      the same of a program's subcommands
 #   vantage_registry(TARGET ...)           gathers backends by file name, so that adding one touches no other file
 #   vantage_embed_texts(TARGET ...)        builds files in
@@ -106,20 +107,21 @@ std::span<const EmbeddedText> ${ARG_FUNCTION}() {
   target_sources(${ARG_TARGET} PRIVATE ${embedded})
 endfunction()
 
-# Sets RESULT to all *.cpp of the current folder and of its subfolders ROOMS.
-function(vantage_room_sources result)
+# Sets RESULT to all *.cpp of the FOLDER below the current one and of its subfolders ROOMS.
+function(vantage_room_sources result folder)
   set(patterns *.cpp)
   foreach(room ${ARGN})
     list(APPEND patterns ${room}/*.cpp)
   endforeach()
-  list(TRANSFORM patterns PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  list(TRANSFORM patterns PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${folder}/)
   file(GLOB sources CONFIGURE_DEPENDS ${patterns})
   set(${result} ${sources} PARENT_SCOPE)
 endfunction()
 
 function(vantage_library name)
-  cmake_parse_arguments(ARG "" "" "ROOMS;APART;DEPENDS" ${ARGN})
-  vantage_room_sources(sources ${ARG_ROOMS})
+  cmake_parse_arguments(ARG "" "IN" "ROOMS;APART;DEPENDS" ${ARGN})
+  vantage_room_sources(sources "${ARG_IN}" ${ARG_ROOMS})
+  list(TRANSFORM ARG_APART PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/${ARG_IN}/)
   add_library(${name} STATIC ${sources} ${CMAKE_BINARY_DIR}/empty.cpp)
   target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
   vantage_use_precompiled(${name} vantage_headers)
@@ -135,8 +137,8 @@ endfunction()
 # vantage_command_library(vantage_host_commands FUNCTION host_commands DEPENDS ...)
 # The subcommands of a program: every file x_command.cpp of the current folder defines `CommandEntry x_command_entry();`.
 function(vantage_command_library name)
-  cmake_parse_arguments(ARG "" "FUNCTION" "ROOMS;DEPENDS" ${ARGN})
-  vantage_room_sources(commands ${ARG_ROOMS})
+  cmake_parse_arguments(ARG "" "IN;FUNCTION" "ROOMS;DEPENDS" ${ARGN})
+  vantage_room_sources(commands "${ARG_IN}" ${ARG_ROOMS})
   add_library(${name} STATIC ${commands})
   target_link_libraries(${name} PUBLIC vantage_options ${ARG_DEPENDS})
   vantage_optimise_little(${name})

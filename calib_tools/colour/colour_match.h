@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "common/colour/colour_correction.h"
+#include "common/image/image.h"
 
 namespace vantage {
 
@@ -36,5 +38,12 @@ ColourMatch match_colours(int cameras, const std::vector<ColourPair>& pairs, int
 /// Solves for the correction that gives a chart's patches their true colours. Burnt-out and black
 /// patches are left out. Throws Error if fewer than 12 are left.
 ColourMatch::Camera match_chart(const std::vector<ColourPatch>& patches);
+
+/// Published sRGB colours (D65) of the 24 patches of the classic ColorChecker, row by row from dark
+/// skin to black.
+std::vector<Eigen::Vector3d> chart_colours();
+
+/// Finds the chart in an image (OpenCV's mcc) and measures its patches. Empty if there is none.
+std::optional<std::vector<ColourPatch>> find_chart(const ColourImage& picture);
 
 }  // namespace vantage

@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
-#include "calib_tools/colour/chart.h"
+#include "calib_tools/colour/colour_match.h"
 #include "calib_tools/colour/overlap.h"
 #include "calib_tools/commands/snapshots.h"
 #include "calib_tools/report/calibration_text.h"

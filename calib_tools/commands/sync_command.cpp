@@ -9,7 +9,6 @@
 #include "calib_tools/commands/live_option.h"
 #include "calib_tools/commands/rig_folders.h"
 #include "calib_tools/report/calibration_text.h"
-#include "calib_tools/sync/screen_pages.h"
 #include "calib_tools/sync/stage_sync.h"
 #include "common/base/cli/command.h"
 #include "common/base/error.h"

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "calib_tools/sync/sensor_exposures.h"
+#include "common/base/files/embedded_text.h"
 #include "common/sync/sync_file.h"
 
 namespace vantage {
@@ -36,5 +38,9 @@ std::vector<std::string> sync_doubts(const SyncRecord& record, double limit_ms);
 
 std::string describe(const SyncRecord& record);
 nlohmann::ordered_json to_json(const SyncRecord& record);
+
+/// screen_bar.html: a page that counts on a screen instead of a bar, with 8 spots and one step per
+/// refresh.
+std::span<const EmbeddedText> screen_pages();
 
 }  // namespace vantage

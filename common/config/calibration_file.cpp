@@ -5,8 +5,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/config/camera_yaml.h"
-#include "common/config/number_checksum.h"
+#include "common/config/yaml/camera_yaml.h"
+#include "common/config/yaml/number_checksum.h"
 
 namespace vantage {
 namespace {

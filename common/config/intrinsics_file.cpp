@@ -1,7 +1,7 @@
 #include "common/config/intrinsics_file.h"
 
-#include "common/config/camera_yaml.h"
-#include "common/config/number_checksum.h"
+#include "common/config/yaml/camera_yaml.h"
+#include "common/config/yaml/number_checksum.h"
 
 namespace vantage {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <opencv2/core.hpp>
 
-#include "common/config/number_checksum.h"
-#include "common/config/yaml_section.h"
+#include "common/config/yaml/number_checksum.h"
+#include "common/config/yaml/yaml_section.h"
 
 namespace vantage {
 namespace {

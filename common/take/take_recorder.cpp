@@ -1,10 +1,19 @@
 #include "common/take/take_recorder.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <future>
+#include <string>
 #include <utility>
+#include <vector>
+
+#include <unistd.h>
 
 #include "common/base/error.h"
+#include "common/base/files/unique_fd.h"
 #include "common/base/log.h"
 #include "common/base/this_thread.h"
 #include "common/base/time/pulse_grid.h"
@@ -13,6 +22,10 @@
 
 namespace vantage {
 namespace {
+
+constexpr std::size_t piece_bytes = 4 << 20;
+constexpr std::size_t most_bytes = 64 << 20;
+constexpr std::chrono::milliseconds longest{300};
 
 /// The disk has to be faster than the data rate by this factor, as it has other work, too.
 constexpr double disk_margin = 1.5;
@@ -46,6 +59,34 @@ nlohmann::ordered_json calibration_json(const RigFrame& frame) {
 }
 
 }  // namespace
+
+double measure_disk_mb_s(const std::filesystem::path& folder) {
+    std::string name = (folder / ".vantage-disk-XXXXXX").string();
+    const UniqueFd file(mkstemp(name.data()));
+    if (!file) fail("cannot write to {}: {}", folder.string(), std::strerror(errno));
+    ::unlink(name.c_str());
+    // Random data, since disks that compress would be fast with zeros.
+    std::vector<std::uint32_t> piece(piece_bytes / sizeof(std::uint32_t));
+    std::uint32_t noise = 1;
+    for (std::uint32_t& word : piece) word = noise = noise * 1664525u + 1013904223u;
+    const MonotonicTime start = MonotonicClock::now();
+    std::size_t written = 0;
+    while (written < most_bytes && MonotonicClock::now() - start < longest) {
+        const ssize_t n = ::write(file.get(), piece.data(), piece_bytes);
+        if (n < 0) fail("cannot write to {}: {}", folder.string(), std::strerror(errno));
+        written += static_cast<std::size_t>(n);
+        ::fdatasync(file.get());
+    }
+    const double seconds = std::chrono::duration<double>(MonotonicClock::now() - start).count();
+    return static_cast<double>(written) / 1e6 / seconds;
+}
+
+double free_disk_mb(const std::filesystem::path& folder) {
+    std::error_code error;
+    const std::filesystem::space_info space = std::filesystem::space(folder, error);
+    if (error) fail("cannot write to {}: {}", folder.string(), error.message());
+    return static_cast<double>(space.available) / 1e6;
+}
 
 struct TakeRecorder::Take {
     std::filesystem::path path;

@@ -12,12 +12,17 @@
 #include <thread>
 #include <vector>
 
-#include "common/take/disk_benchmark.h"
 #include "common/take/format/frame_storage.h"
 #include "common/take/take_writer.h"
 #include "common/wire/arrived_frame.h"
 
 namespace vantage {
+
+/// Measures the write rate of a folder's disk in MB/s, including the sync, by writing for at most
+/// 0.3 s. Throws Error if the folder is not writable.
+double measure_disk_mb_s(const std::filesystem::path& folder);
+/// Free space on the folder's disk in MB.
+double free_disk_mb(const std::filesystem::path& folder);
 
 /// The phase of the recording.
 enum class TakePhase {

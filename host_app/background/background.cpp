@@ -1,6 +1,6 @@
 #include "host_app/background/background.h"
 
-#include "common/config/number_checksum.h"
+#include "common/config/yaml/number_checksum.h"
 
 namespace vantage {
 

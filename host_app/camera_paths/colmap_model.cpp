@@ -12,7 +12,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/calibration_forms/colmap_images.h"
 #include "common/image/picture_list.h"
-#include "host_app/camera_paths/camera_path_file.h"
+#include "host_app/camera_paths/camera_path.h"
 
 namespace vantage {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
-#include "host_app/camera_paths/camera_path_file.h"
-#include "host_app/control/freed/freed_message.h"
+#include "host_app/camera_paths/camera_path.h"
+#include "host_app/control/tracking/freed_message.h"
 
 namespace vantage {
 namespace {

@@ -14,7 +14,7 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/log.h"
-#include "host_app/camera_paths/camera_path_file.h"
+#include "host_app/camera_paths/camera_path.h"
 
 extern "C" {
 #include <libavutil/base64.h>

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/cli/command.h"
-#include "host_app/control/table/control_words.h"
+#include "host_app/control/table/lamp.h"
 
 namespace vantage {
 

@@ -18,8 +18,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "host_app/control/hid/jog_devices.h"
-#include "host_app/control/hid/simulated/simulated_xpress.h"
-#include "host_app/control/hid/simulated/uhid_wheel.h"
+#include "host_app/control/hid/simulated_wheel.h"
 #include "host_app/session/options/common_options.h"
 
 namespace vantage {

@@ -12,8 +12,8 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/output_path.h"
-#include "host_app/camera_paths/camera_path_file.h"
-#include "host_app/flight/flight_book.h"
+#include "host_app/camera_paths/camera_path.h"
+#include "host_app/flight/flight_plan.h"
 #include "host_app/session/options/common_options.h"
 
 namespace vantage {

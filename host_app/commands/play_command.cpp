@@ -10,7 +10,7 @@
 #include "common/base/time/time_zone.h"
 #include "host_app/session/options/common_options.h"
 #include "host_app/session/show_session.h"
-#include "host_app/sound/take_sound.h"
+#include "host_app/sound/sound_source.h"
 #include "host_app/takes/take_frame_sets.h"
 #include "host_app/takes/take_show.h"
 

@@ -19,9 +19,7 @@
 #include "host_app/synthesis/source_map.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
-#include "host_app/view_sets/immersive_metrics.h"
 #include "host_app/view_sets/outline_depth.h"
-#include "host_app/view_sets/stage_views.h"
 #include "host_app/view_sets/view_set.h"
 
 namespace vantage {

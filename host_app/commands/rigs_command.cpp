@@ -22,10 +22,9 @@
 #include "host_app/commands/rigs/rigs_commands.h"
 #include "host_app/session/options/common_options.h"
 #include "host_app/session/report/live_report.h"
-#include "host_app/session/report/rig_words.h"
 #include "host_app/session/sync_proof.h"
 #include "host_app/takes/clock_time.h"
-#include "host_app/takes/kept_fetch.h"
+#include "host_app/takes/rig_fetch.h"
 
 namespace vantage {
 namespace {

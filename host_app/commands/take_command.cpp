@@ -15,7 +15,6 @@
 #include "common/take/take_pulses.h"
 #include "host_app/exports/edit_list.h"
 #include "host_app/exports/take_export.h"
-#include "host_app/exports/take_server.h"
 #include "host_app/replay/clip_store.h"
 #include "host_app/session/options/common_options.h"
 #include "host_app/session/options/film_options.h"

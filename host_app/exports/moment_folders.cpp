@@ -9,8 +9,8 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/image/image_file.h"
-#include "host_app/exports/moment_files.h"
-#include "host_app/view_sets/view_set_writer.h"
+#include "host_app/exports/moment.h"
+#include "host_app/view_sets/view_set.h"
 
 namespace vantage {
 namespace {

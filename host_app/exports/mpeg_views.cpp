@@ -9,8 +9,8 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
-#include "host_app/camera_paths/omaf_camera.h"
-#include "host_app/exports/moment_files.h"
+#include "host_app/camera_paths/camera_path.h"
+#include "host_app/exports/moment.h"
 #include "host_app/output/media/picture_converter.h"
 
 namespace vantage {

@@ -8,7 +8,7 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/colour/colour_correction.h"
-#include "host_app/exports/moment_files.h"
+#include "host_app/exports/moment.h"
 
 namespace vantage {
 namespace {

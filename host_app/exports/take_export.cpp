@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
+#include "common/base/time/timecode.h"
 #include "common/take/take_pulses.h"
-#include "host_app/exports/camera_files.h"
 #include "host_app/exports/moment.h"
-#include "host_app/exports/moment_files.h"
 
 namespace vantage {
 namespace {
@@ -40,6 +42,17 @@ std::vector<std::uint64_t> pulses_of(const TakeReader& take, const TakePart& par
             wanted.push_back(pulse);
     return wanted;
 }
+
+constexpr const char* name = "export.json";
+
+bool holds_others(const std::filesystem::path& folder) {
+    const std::filesystem::directory_iterator files(folder);
+    return std::any_of(begin(files), end(files), [](const auto& entry) {
+        return !entry.path().filename().string().starts_with(name);
+    });
+}
+
+constexpr double deg = 180 / std::numbers::pi;
 
 }  // namespace
 
@@ -99,19 +112,6 @@ ExportStats export_camera(const TakeReader& take, const TakePart& part,
     return {cameras.size(), 0, 0};
 }
 
-namespace {
-
-constexpr const char* name = "export.json";
-
-bool holds_others(const std::filesystem::path& folder) {
-    const std::filesystem::directory_iterator files(folder);
-    return std::any_of(begin(files), end(files), [](const auto& entry) {
-        return !entry.path().filename().string().starts_with(name);
-    });
-}
-
-}  // namespace
-
 void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
                   const nlohmann::ordered_json& what) {
     make_folder(folder);
@@ -134,6 +134,44 @@ void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
             "{} contains another export, of another take or format: choose a new name, or delete "
             "it",
             folder.string());
+}
+
+CameraState camera_of(const CameraRecord& record) {
+    return {record.world_from_camera, record.field_of_view_rad, record.focus_m};
+}
+
+std::array<std::byte, freed_bytes> freed_message(const CameraRecord& camera) {
+    return encode_freed(freed_camera(camera_of(camera), 1));
+}
+
+void write_camera_csv(const TakeReader& take, std::span<const CameraRecord> cameras,
+                      const std::filesystem::path& file) {
+    const TimecodeClock clock(take.facts().pulse_rate_hz);
+    std::string text =
+        "tick,pulse,timecode,time_s,x_m,y_m,z_m,pan_deg,tilt_deg,roll_deg,qw,qx,qy,qz,"
+        "field_of_view_deg,focus_m\n";
+    for (const CameraRecord& camera : cameras) {
+        const PanTiltRoll turn = pan_tilt_roll_of(camera.world_from_camera);
+        const Eigen::Vector3d at = camera.world_from_camera.translation();
+        const Eigen::Quaterniond q(camera.world_from_camera.linear());
+        text += fmt::format(
+            "{},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.9f},{:.9f},{:.9f},{:.9f},"
+            "{:.6f},{:.6f}\n",
+            camera.tick, camera.pulse, clock.of_pulse(camera.pulse, take.facts().tai_offset_s),
+            std::chrono::duration<double>(camera.time - cameras.front().time).count(), at.x(),
+            at.y(), at.z(), turn.pan_rad * deg, turn.tilt_rad * deg, turn.roll_rad * deg, q.w(),
+            q.x(), q.y(), q.z(), camera.field_of_view_rad * deg, camera.focus_m);
+    }
+    write_text_atomically(file, text);
+}
+
+void write_camera_freed(std::span<const CameraRecord> cameras, const std::filesystem::path& file) {
+    std::vector<std::byte> bytes;
+    for (const CameraRecord& camera : cameras) {
+        const auto message = freed_message(camera);
+        bytes.insert(bytes.end(), message.begin(), message.end());
+    }
+    write_file_atomically(file, bytes);
 }
 
 }  // namespace vantage

@@ -1,14 +1,18 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <iosfwd>
 #include <span>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
 #include "common/take/take_reader.h"
+#include "host_app/control/tracking/freed_message.h"
 
 namespace vantage {
 
@@ -52,5 +56,31 @@ ExportStats export_camera(const TakeReader& take, const TakePart& part,
 /// Several processes may call it at a time.
 void claim_folder(const std::filesystem::path& folder, const TakeReader& take,
                   const nlohmann::ordered_json& what);
+
+/// The camera of a programme tick.
+CameraState camera_of(const CameraRecord& record);
+
+/// The FreeD message of a tick's camera.
+std::array<std::byte, freed_bytes> freed_message(const CameraRecord& camera);
+
+/// Writes one line per tick: time code, seconds since the first tick, position, rotation as angles
+/// and as a quaternion of world_from_camera (OpenCV's axes), and lens.
+void write_camera_csv(const TakeReader& take, std::span<const CameraRecord> cameras,
+                      const std::filesystem::path& file);
+/// Writes the FreeD messages of all ticks in sequence.
+void write_camera_freed(std::span<const CameraRecord> cameras, const std::filesystem::path& file);
+
+/// Serves decoded frame sets of a take to another program on this computer, without copies of the
+/// pixels: the decoders write into shared memory, which that program maps.
+///
+/// The first line on `out` describes the take as JSON. Each request is a line on `in`:
+/// `{"pulse": N}` for a frame set, or `{"cameras": true}` for the camera of every tick. Each answer
+/// is a line on `out`: either `{"error": SENTENCE}`, or an object with `fd`, the descriptor of the
+/// shared memory in this process, its `bytes`, its number `memory`, and the place and shape of
+/// every array in it. The descriptor is valid until the next request, and a mapping of it as long
+/// as it is held. A request with `"released": [NUMBER...]` says which memory is no longer mapped,
+/// so that it can be used again. Returns at the end of `in`. Throws Error if the take's head is
+/// damaged.
+void serve_take(const TakeReader& take, std::istream& in, std::ostream& out);
 
 }  // namespace vantage

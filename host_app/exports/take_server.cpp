@@ -1,5 +1,3 @@
-#include "host_app/exports/take_server.h"
-
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -22,6 +20,7 @@
 #include "common/base/time/timecode.h"
 #include "common/geometry/json_rows.h"
 #include "common/take/format/frame_storage.h"
+#include "host_app/exports/take_export.h"
 #include "host_app/takes/take_show.h"
 
 namespace vantage {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
-#include "host_app/flight/moves/move_edit.h"
+#include "host_app/flight/moves/move.h"
 
 namespace vantage {
 namespace {

@@ -2,9 +2,11 @@
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "common/base/time/time.h"
 #include "host_app/output/output.h"
 
 namespace vantage {
@@ -57,6 +59,27 @@ class OutputSupervisor {
     bool takes_stdout_ = false;
     std::vector<std::shared_ptr<Output>> outputs_;
     std::vector<std::shared_ptr<ScreenFeed>> screens_;
+};
+
+/// The operator's keys for outputs: a press starts an output that is off, and a second press within
+/// three seconds stops one that runs. Used on the session's thread.
+class OutputSwitch {
+  public:
+    explicit OutputSwitch(OutputSupervisor& outputs) : outputs_(outputs) {}
+
+    /// Takes a press for an output, from 1 on. If there is no such output, question() says so.
+    void press(int number, MonotonicTime now);
+    /// The question or the message for the operator; empty: none.
+    std::string question(MonotonicTime now) const;
+
+  private:
+    struct Asked {
+        int number;
+        std::string words;
+        MonotonicTime until;
+    };
+    OutputSupervisor& outputs_;
+    std::optional<Asked> asked_;
 };
 
 }  // namespace vantage

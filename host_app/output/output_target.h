@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,12 +9,26 @@
 
 #include "common/av/sound.h"
 #include "common/base/error.h"
+#include "common/base/time/time.h"
 #include "common/image/image.h"
 #include "host_app/output/media/shared_encoder.h"
-#include "host_app/output/output_retry.h"
 #include "host_app/output/output_url.h"
 
 namespace vantage {
+
+/// Time for which an output may wait for its peer or device. Unlimited until the output is stopped.
+class OutputPatience {
+  public:
+    bool is_over() const { return to_ns(MonotonicClock::now()) >= until_ns_; }
+    void ends_after(std::chrono::nanoseconds time) {
+        until_ns_ = to_ns(MonotonicClock::now() + time);
+    }
+    void is_endless() { until_ns_ = endless_ns; }
+
+  private:
+    static constexpr std::int64_t endless_ns = INT64_MAX;
+    std::atomic<std::int64_t> until_ns_ = endless_ns;
+};
 
 class ScreenFeed;
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <thread>
 
-#include "host_app/flight/camera_forecast.h"
 #include "host_app/flight/camera_source.h"
+#include "host_app/flight/camera_state.h"
 #include "host_app/pipeline/instant_thread.h"
 #include "host_app/programme/governor.h"
 #include "host_app/programme/picture_maker.h"

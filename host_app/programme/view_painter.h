@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/gl/objects/readback.h"
+#include "common/image/image.h"
 #include "common/image/picture_pool.h"
 #include "host_app/flight/camera_state.h"
 #include "host_app/programme/coarse_depth.h"
@@ -64,5 +65,10 @@ class ViewPainter {
     CoarseDepth coarse_depth_;
     double readback_ms_ = 0;
 };
+
+/// Marks large areas of a rendered frame that no rig saw, with dark hatching. It starts at 1/20 of
+/// the frame's width from the nearest pixel that was seen and is opaque from 1/10 on. Smaller holes
+/// keep their inpainted content, which is plausible there. Alpha is that of ViewRenderer::render().
+void mark_unseen(ColourImage& picture);
 
 }  // namespace vantage

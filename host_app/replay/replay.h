@@ -5,7 +5,6 @@
 #include <string>
 
 #include "host_app/replay/clip.h"
-#include "host_app/replay/play_list.h"
 #include "host_app/replay/transport.h"
 
 namespace vantage {

@@ -8,7 +8,7 @@
 #include "common/base/log.h"
 #include "common/base/time/pulse_grid.h"
 #include "common/gl/context/limits.h"
-#include "host_app/output/contact_sheet_sink.h"
+#include "host_app/output/contact_sheet.h"
 #include "host_app/views/depth_views.h"
 #include "host_app/views/surface_samples.h"
 

@@ -9,26 +9,23 @@
 #include "common/base/time/pulse_grid.h"
 #include "common/base/trace/trace.h"
 #include "common/image/image_file.h"
-#include "host_app/control/ports/freed_sink.h"
-#include "host_app/control/ports/opentrackio_sink.h"
+#include "host_app/control/ports/tracking_sinks.h"
 #include "host_app/desk/feed/desk_feed.h"
-#include "host_app/desk/feed/stage_points.h"
+#include "host_app/desk/feed/stage_map.h"
 #include "host_app/desk/windows/operator_window.h"
 #include "host_app/desk/windows/screen_windows.h"
 #include "host_app/metrics/open_metrics.h"
 #include "host_app/output/frame_set_timecode.h"
-#include "host_app/replay/past_time.h"
-#include "host_app/session/output_switch.h"
+#include "host_app/output/output_supervisor.h"
+#include "host_app/replay/transport.h"
 #include "host_app/session/report/show_log.h"
 
 namespace vantage {
 void ShowSession::run(StopSignal& stop) {
-    for (const std::string& url : options.outputs) {
-        if (is_freed_url(url)) show.add(make_freed_sink(url, show.settings().rate_hz));
-        if (is_opentrackio_url(url))
-            show.add(
-                make_opentrackio_sink(url, show.settings().rate_hz, show.settings().pulse_rate_hz));
-    }
+    const LiveSettings& settings = show.settings();
+    for (const std::string& url : options.outputs)
+        if (auto sink = make_tracking_sink(url, settings.rate_hz, settings.pulse_rate_hz))
+            show.add(std::move(sink));
     BackgroundSaver backgrounds(show, options.saved_background);
     ControlRoom room(options.controls, show);
     if (!options.metrics.empty()) metrics.emplace(options.metrics);

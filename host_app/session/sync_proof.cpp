@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "host_app/session/report/rig_words.h"
+#include "host_app/session/report/live_report.h"
 
 namespace vantage {
 namespace {

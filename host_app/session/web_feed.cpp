@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host_app/desk/feed/desk_values.h"
-#include "host_app/session/report/rig_words.h"
+#include "host_app/session/report/live_report.h"
 
 namespace vantage {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "common/take/take_recorder.h"
 #include "host_app/control/table/lamp.h"
-#include "host_app/session/air_watch.h"
+#include "host_app/session/control_room.h"
 #include "host_app/session/live_show.h"
 #include "host_app/web/web_server.h"
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/av/sound.h"
+#include "common/take/take_reader.h"
 
 namespace vantage {
 
@@ -74,5 +75,12 @@ void check_alsa_sound(const OutputUrl& url);
 /// Opens a sound file that starts with the programme's first tick; `loop=yes` repeats it. Throws
 /// Error if the file has no sound.
 std::shared_ptr<SoundSource> open_file_sound(const OutputUrl& url);
+
+/// Opens the sound of a take, addressed by the time at which it was heard. Precondition: the take
+/// has sound. Reads some seconds ahead on a thread of its own, from `begin`, for a programme that
+/// never waits.
+std::shared_ptr<SoundSource> open_take_sound(std::shared_ptr<const TakeReader> take, TaiTime begin);
+/// Opens it for reading on request, for film exports, which may wait.
+std::shared_ptr<SoundSource> open_patient_take_sound(std::shared_ptr<const TakeReader> take);
 
 }  // namespace vantage

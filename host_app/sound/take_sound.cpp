@@ -1,11 +1,10 @@
-#include "host_app/sound/take_sound.h"
-
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 
 #include "common/base/log.h"
 #include "host_app/sound/sound_ahead.h"
+#include "host_app/sound/sound_source.h"
 
 namespace vantage {
 namespace {

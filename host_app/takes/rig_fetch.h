@@ -6,16 +6,52 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/base/time/time.h"
+#include "common/config/stage_config.h"
 #include "common/receive/rig_link.h"
-#include "host_app/takes/fetched_files.h"
+#include "common/take/kept_frame.h"
+#include "common/take/take_reader.h"
 
 namespace vantage {
+
+/// Writes the frames fetched from one rig to takes in a folder. Each take has its final name from
+/// the start, so that an interrupted fetch resumes. Not thread-safe.
+class FetchedFiles {
+  public:
+    /// `show`: for TakeFacts. Takes that cannot be read are skipped and logged.
+    FetchedFiles(std::filesystem::path folder, std::string rig, nlohmann::ordered_json show);
+    /// Leaves the last file readable.
+    ~FetchedFiles();
+    FetchedFiles(FetchedFiles&&) = default;
+    FetchedFiles& operator=(FetchedFiles&&) = delete;
+
+    /// The pulses of frames that the folder had already, in order.
+    const std::vector<std::uint64_t>& there() const { return there_; }
+    /// Writes a frame to the current file, or to a new one if its images do not fit or its pulse is
+    /// not later than the previous one. Throws Error if the disk fails.
+    void add(const KeptFrame& frame);
+    /// Closes the current file.
+    void finish();
+
+    const std::vector<std::filesystem::path>& files() const { return files_; }
+
+  private:
+    void begin(const KeptFrame& frame);
+
+    std::filesystem::path folder_;
+    std::string rig_;
+    nlohmann::ordered_json show_;
+    std::vector<std::uint64_t> there_;
+    std::unique_ptr<TakeWriter> writer_;
+    std::uint64_t last_pulse_ = 0;
+    std::vector<std::filesystem::path> files_;
+};
 
 /// The pulses from `from` to before `to`.
 struct PulseRange {
@@ -113,6 +149,24 @@ class RigFetch {
     double expected_bytes_ = 0;  ///< size of the last frame
     std::optional<MonotonicTime> silent_since_;
     FetchStats stats_;
+};
+
+/// Fetches the rigs' own recordings to this host.
+struct KeptFetch {
+    /// The pulses to fetch, for a rig's TAI offset.
+    std::function<PulseRange(int tai_offset_s)> range;
+    std::shared_ptr<const TakeReader> take;  ///< its frames are not fetched; may be null
+    std::vector<std::string> rigs;           ///< empty: all rigs of the stage
+    std::filesystem::path folder;            ///< existing folder for the files
+    double bytes_s = 20e6;                   ///< total rate limit
+    std::chrono::nanoseconds patience = std::chrono::seconds(10);  ///< with a silent rig
+
+    using Progress = std::function<void(const std::vector<FetchStats>&)>;
+    /// Fetches from all rigs in parallel, and returns when each has sent all it has or failed, or
+    /// when `is_stopped`. `progress` is called now and then. Throws Error for invalid keys,
+    /// endpoints and names, and if the disk fails.
+    std::vector<FetchStats> run(const StageConfig& stage, const std::function<bool()>& is_stopped,
+                                const Progress& progress) const;
 };
 
 }  // namespace vantage

@@ -9,7 +9,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/image/image_file.h"
 #include "host_app/view_sets/data_set_import.h"
-#include "host_app/view_sets/view_set_writer.h"
+#include "host_app/view_sets/view_set.h"
 
 namespace vantage {
 namespace {

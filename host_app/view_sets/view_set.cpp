@@ -6,11 +6,16 @@
 
 #include <Eigen/SVD>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgproc.hpp>
 #include <toml++/toml.h>
 
+#include "common/av/video_reader.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
+#include "common/base/files/folder.h"
 #include "common/base/log.h"
+#include "common/config/stage_cameras.h"
+#include "common/geometry/json_rows.h"
 #include "common/gl/context/limits.h"
 #include "common/image/image_file.h"
 #include "common/image/pfm.h"
@@ -215,6 +220,37 @@ DepthView read_view(const Entry& entry, const std::filesystem::path& folder) {
     return view;
 }
 
+/// Where each pixel of an ideal camera with the same matrix is in the picture of the lens.
+void undistortion_of(const CameraModel& camera, cv::Mat1f& x_map, cv::Mat1f& y_map) {
+    x_map.create(camera.height_px, camera.width_px);
+    y_map.create(camera.height_px, camera.width_px);
+    const Eigen::Matrix3d ray_from_pixel = camera.K().inverse();
+    for (int y = 0; y < camera.height_px; ++y)
+        for (int x = 0; x < camera.width_px; ++x) {
+            const auto place = camera.project(ray_from_pixel * Eigen::Vector3d(x, y, 1));
+            x_map(y, x) = place ? static_cast<float>(place->x()) : -1.0f;
+            y_map(y, x) = place ? static_cast<float>(place->y()) : -1.0f;
+        }
+}
+
+ColourImage picture_of(const SingleCamera& camera) {
+    if (camera.source.empty())
+        fail("the camera '{}' has no 'source': name its picture or its video", camera.name);
+    ColourImage picture;
+    if (is_picture_file(camera.source)) {
+        picture = read_colour_image(camera.source);
+    } else {
+        const auto first = VideoReader(camera.source).next();
+        if (!first) fail("{} holds no picture", camera.source);
+        picture = *first;
+    }
+    if (picture.cols != camera.model.width_px || picture.rows != camera.model.height_px)
+        fail("{} is {}x{}, and the calibration of the camera '{}' is for {}x{}", camera.source,
+             picture.cols, picture.rows, camera.name, camera.model.width_px,
+             camera.model.height_px);
+    return picture;
+}
+
 }  // namespace
 
 std::size_t ViewSet::index_of(std::string_view name) const {
@@ -273,6 +309,86 @@ VirtualView load_virtual_view(const std::filesystem::path& file) {
     view.world_from_camera = entry.pose();
     entry.warn_of_unknown_keys({"width", "height", "K", "world_from_camera"});
     return view;
+}
+
+ViewSetWriter::ViewSetWriter(std::filesystem::path folder) : folder_(std::move(folder)) {
+    if (std::filesystem::exists(folder_ / "views.json"))
+        fail("{} contains a view set already; give a new folder", folder_.string());
+    make_folder(folder_);
+}
+
+void ViewSetWriter::begin_view(const Camera& camera, const std::filesystem::path& picture) {
+    // A view set is read as a whole: what cannot be read is refused before it is copied.
+    picture_size_ = read_colour_image(picture).size();
+    document_["views"].push_back({{"name", camera.name},
+                                  {"image", copy(picture, camera.name)},
+                                  {"K", json_rows(camera.K)},
+                                  {"world_from_camera", json_rows(camera.world_from_camera)}});
+}
+
+void ViewSetWriter::add_disparity(const Disparity& disparity) {
+    const std::string extension = disparity.file.extension().string();
+    const bool is_pfm = extension == ".pfm" || extension == ".PFM";
+    const cv::Size size =
+        is_pfm ? read_pfm(disparity.file).size() : read_code_image(disparity.file).size();
+    constexpr double most_aspect_error = 0.03;
+    const double aspect = size.aspectRatio() / picture_size_.aspectRatio();
+    if (std::abs(aspect - 1) > most_aspect_error)
+        fail("{} is {}x{} and its picture {}x{}: they are not of one field of view",
+             disparity.file.string(), size.width, size.height, picture_size_.width,
+             picture_size_.height);
+    auto& view = document_["views"].back();
+    view["disparity"] = copy(disparity.file, view["name"].get<std::string>() + "-disparity");
+    if (disparity.scale) view["scale"] = *disparity.scale;
+    if (disparity.unknown) view["unknown"] = *disparity.unknown;
+    view["baseline_m"] = disparity.baseline_m;
+    view["doffs_px"] = disparity.doffs_px;
+    ++with_geometry_;
+}
+
+void ViewSetWriter::add_depth(const DepthImage& depth_m) {
+    auto& view = document_["views"].back();
+    const std::string name = view["name"].get<std::string>() + "-depth.pfm";
+    write_pfm(folder_ / name, depth_m);
+    view["depth"] = name;
+    ++with_geometry_;
+}
+
+void ViewSetWriter::finish() {
+    const std::string text = document_.dump(1) + "\n";
+    write_text_atomically(folder_ / "views.json", text);
+}
+
+std::string ViewSetWriter::copy(const std::filesystem::path& file, const std::string& stem) {
+    const std::string name = stem + file.extension().string();
+    std::error_code error;
+    std::filesystem::copy_file(file, folder_ / name,
+                               std::filesystem::copy_options::overwrite_existing, error);
+    if (error)
+        fail("cannot copy {} to {} ({})", file.string(), (folder_ / name).string(),
+             error.message());
+    return name;
+}
+
+ViewSet load_stage_views(const std::filesystem::path& stage) {
+    ViewSet set;
+    for (const SingleCamera& camera : load_stage_cameras(stage)) {
+        cv::Mat1f x_map, y_map;
+        undistortion_of(camera.model, x_map, y_map);
+        DepthView view;
+        view.name = camera.name;
+        view.K = camera.model.K();
+        view.world_from_camera = camera.world_from_camera;
+        cv::remap(picture_of(camera), view.colour, x_map, y_map, cv::INTER_LINEAR);
+        GreyImage outline;
+        if (!camera.outline.empty()) {
+            const GreyImage drawn = read_outline(camera.outline, camera.name, x_map.size());
+            cv::remap(drawn, outline, x_map, y_map, cv::INTER_LINEAR);
+        }
+        set.views.push_back(std::move(view));
+        set.outlines.push_back(std::move(outline));
+    }
+    return set;
 }
 
 }  // namespace vantage

@@ -5,7 +5,6 @@
 
 #include "common/base/error.h"
 #include "common/wire/random_id.h"
-#include "host_app/web/web_page.h"
 
 namespace vantage {
 namespace {

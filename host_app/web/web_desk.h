@@ -4,19 +4,23 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/base/files/embedded_text.h"
 #include "common/base/time/time.h"
 #include "common/image/image.h"
 #include "common/receive/frame_set.h"
 #include "common/wire/codec/colour_codec.h"
 #include "host_app/control/ports/command_intake.h"
-#include "host_app/control/ports/message_budget.h"
 #include "host_app/web/board_watch.h"
 
 namespace vantage {
+
+/// The page for tablets and phones: one HTML file without any other.
+std::span<const EmbeddedText> embedded_web_page();
 
 /// A request to the web desk.
 struct WebRequest {

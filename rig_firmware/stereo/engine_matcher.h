@@ -11,7 +11,6 @@
 #include "rig_firmware/stereo/disparity/smooth_pass.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
 #include "rig_firmware/stereo/features/luma_pass.h"
-#include "rig_firmware/stereo/match_limits.h"
 #include "rig_firmware/stereo/matcher.h"
 
 namespace vantage {

@@ -91,4 +91,8 @@ std::string default_matcher(MatchPreset preset);
 
 MatchPreset parse_preset(const std::string& name);
 
+/// Throws Error that names the limit if `settings` is beyond what any matcher takes: 16..4096
+/// pixels wide and high, 1..256 disparities.
+void require_match_limits(const MatchSettings& settings);
+
 }  // namespace vantage

@@ -5,7 +5,6 @@
 #include "common/wire/status_report.h"
 #include "host_app/commands/rigs/rigs_commands.h"
 #include "host_app/session/report/live_report.h"
-#include "host_app/session/report/rig_words.h"
 
 namespace vantage {
 

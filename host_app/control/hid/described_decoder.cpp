@@ -4,8 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "host_app/control/hid/held_buttons.h"
-#include "host_app/control/hid/report_bytes.h"
+#include "host_app/control/hid/jog_report.h"
 
 namespace vantage {
 namespace {

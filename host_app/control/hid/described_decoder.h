@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "host_app/control/hid/jog_decoder.h"
+#include "host_app/control/hid/jog_family.h"
 
 namespace vantage {
 

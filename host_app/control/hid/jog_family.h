@@ -1,14 +1,74 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "host_app/control/hid/jog_decoder.h"
+#include "common/base/time/time.h"
 
 namespace vantage {
+
+enum class JogKind {
+    step,    ///< detents since the previous event; positive is clockwise
+    axis,    ///< position of a spring-centred control, -1..1, 0 at rest
+    button,  ///< 1 pressed, 0 released
+};
+
+/// Operator input on a device: the control, by the name its decoder gives it, and its value.
+struct JogEvent {
+    JogKind kind = JogKind::step;
+    std::string control;
+    double value = 0;
+
+    bool operator==(const JogEvent&) const = default;
+};
+
+/// One control of a device.
+struct JogControl {
+    JogKind kind = JogKind::step;
+    std::string name;
+};
+
+/// Interface of an open controller. HID reports that have an id start with it; an evdev report is
+/// one or more whole `input_event`s. Every member throws Error when the device is gone. Use it from
+/// one thread.
+class JogPort {
+  public:
+    virtual ~JogPort() = default;
+
+    /// Waits for one report; empty after `timeout`.
+    virtual std::vector<std::uint8_t> read(std::chrono::milliseconds timeout) = 0;
+    /// Sends an output report. The first byte is its id, or 0 if the device has no ids.
+    virtual void write(std::span<const std::uint8_t> report) = 0;
+    virtual void send_feature(std::span<const std::uint8_t> report) = 0;
+    /// Reads the feature report with this id, which is its first byte; at most `size` bytes.
+    virtual std::vector<std::uint8_t> get_feature(std::uint8_t id, std::size_t size) = 0;
+};
+
+/// Interface that decodes one device's reports into events. It keeps state between reports
+/// (counters that wrap, held buttons), so that each device has a decoder of its own. Not
+/// thread-safe.
+class JogDecoder {
+  public:
+    virtual ~JogDecoder() = default;
+
+    /// All controls that events may name.
+    virtual std::vector<JogControl> controls() const = 0;
+
+    /// Initialises a device that was just opened. Throws Error if it refuses.
+    virtual void start(JogPort&, MonotonicTime) {}
+    /// Sends what the device expects periodically or after its last report. Call it after every
+    /// report and ten times per second.
+    virtual void keep_alive(JogPort&, MonotonicTime) {}
+
+    /// Appends the events of a report. Returns false, and appends nothing, if the bytes are not a
+    /// report of this device. Accepts any bytes.
+    virtual bool decode(std::span<const std::uint8_t> report, std::vector<JogEvent>& events) = 0;
+};
 
 enum class JogTransport {
     hidraw,  ///< through hidapi

@@ -14,7 +14,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/unique_fd.h"
-#include "host_app/control/hid/jog_bus.h"
+#include "host_app/control/hid/jog_devices.h"
 
 namespace vantage {
 namespace {

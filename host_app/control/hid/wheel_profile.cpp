@@ -12,7 +12,6 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/config/toml_reader.h"
-#include "host_app/control/hid/embedded_wheels.h"
 
 namespace vantage {
 namespace {

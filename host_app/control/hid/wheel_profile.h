@@ -2,15 +2,20 @@
 
 #include <filesystem>
 #include <map>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "common/base/files/embedded_text.h"
 #include "host_app/control/hid/described_decoder.h"
 #include "host_app/control/hid/jog_family.h"
 #include "host_app/control/table/control_command.h"
 
 namespace vantage {
+
+/// Built-in copies of the files in hw_config/jog.
+std::span<const EmbeddedText> embedded_wheels();
 
 class TomlTable;
 

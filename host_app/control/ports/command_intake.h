@@ -1,10 +1,36 @@
 #pragma once
 
+#include <algorithm>
+#include <chrono>
+
+#include "common/base/time/time.h"
 #include "host_app/control/flight_controls.h"
-#include "host_app/control/ports/message_budget.h"
 #include "host_app/control/table/control_command.h"
 
 namespace vantage {
+
+/// Rate limit of messages (token bucket): a number per second, and a number at once after a rest.
+/// Not thread-safe.
+class MessageBudget {
+  public:
+    MessageBudget(double per_second, double at_once)
+        : per_second_(per_second), at_once_(at_once), left_(at_once) {}
+
+    /// Returns true if one more message is allowed now.
+    bool take(MonotonicTime now) {
+        if (last_ != MonotonicTime{})
+            left_ = std::min(
+                at_once_, left_ + per_second_ * std::chrono::duration<double>(now - last_).count());
+        last_ = now;
+        if (left_ < 1) return false;
+        left_ -= 1;
+        return true;
+    }
+
+  private:
+    double per_second_, at_once_, left_;
+    MonotonicTime last_{};
+};
 
 /// Passes commands from a port to the programme's next ticks, and limits their rate. Use it from
 /// one thread.

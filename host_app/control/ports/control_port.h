@@ -2,17 +2,95 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "host_app/control/ports/control_bench.h"
+#include "common/base/time/time.h"
+#include "host_app/control/flight_controls.h"
+#include "host_app/control/table/lamp.h"
 #include "host_app/output/output_url.h"
 
 namespace vantage {
+
+/// Text for operators: "3 frames ahead of the house's time code".
+inline std::string words_of_ltc(std::int64_t frames_ahead) {
+    if (frames_ahead == 0) return "in step with the house's time code";
+    const std::int64_t frames = std::abs(frames_ahead);
+    return std::to_string(frames) + (frames == 1 ? " frame " : " frames ") +
+           (frames_ahead > 0 ? "ahead of" : "behind") + " the house's time code";
+}
+
+/// State of the received linear time code. Thread-safe.
+class LtcBoard {
+  public:
+    struct State {
+        std::string code;               ///< empty: no code at present
+        std::int64_t frames_ahead = 0;  ///< relative to the house time of day
+    };
+    void put(State state) {
+        const std::lock_guard lock(mutex_);
+        state_ = std::move(state);
+        heard_ = MonotonicClock::now();
+    }
+    /// State of the last half second.
+    State state() const {
+        const std::lock_guard lock(mutex_);
+        constexpr std::chrono::milliseconds patience{500};
+        return MonotonicClock::now() - heard_ > patience ? State() : state_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    State state_;
+    MonotonicTime heard_{};
+};
+
+/// A value that one thread puts and others read. Thread-safe.
+template <class Value>
+class Board {
+  public:
+    using State = Value;
+    void put(Value value) {
+        const std::lock_guard lock(mutex_);
+        value_ = std::move(value);
+    }
+    Value state() const {
+        const std::lock_guard lock(mutex_);
+        return value_;
+    }
+
+  private:
+    mutable std::mutex mutex_;
+    Value value_;
+};
+
+/// Lamps of the session, for the ports.
+using LampBoard = Board<ShowLamps>;
+
+/// Tally of this camera, as the vision mixer sends it.
+struct TallyState {
+    bool programme = false, preview = false;
+    bool operator==(const TallyState&) const = default;
+};
+using Tally = Board<TallyState>;
+
+/// Parts of the session that a port acts on or reports. All of them are thread-safe and outlive the
+/// ports.
+struct ControlBench {
+    OperatorInputBox& operator_input;
+    TrackedCamera& tracked;
+    Tally& tally;
+    const LampBoard& lamps;
+    LtcBoard& ltc;
+};
 
 /// Counters of a port. Every received message is counted in one of them.
 struct PortStats {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "host_app/control/ports/messages/midi_message.h"
+#include "host_app/control/ports/messages/midi_map.h"
 
 struct _snd_seq;
 

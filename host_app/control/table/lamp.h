@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "host_app/control/table/control_command.h"
 
 namespace vantage {
@@ -67,5 +69,12 @@ std::span<const Lamp> lamps();
 
 /// Type of a lamp's value: "switch", "number" or "word".
 const char* kind_words(const Lamp& lamp);
+
+/// The tables of commands and lamps in docs/operate/control.md and docs/reference/commands.md, as
+/// Markdown.
+std::string command_table(ControlPage page);
+std::string lamp_table(ControlPage page);
+/// Both tables for `vantage control --json`.
+nlohmann::ordered_json control_json();
 
 }  // namespace vantage

@@ -8,9 +8,8 @@
 #include "common/gl/context/limits.h"
 #include "host_app/desk/desk_layout.h"
 #include "host_app/desk/feed/desk_values.h"
-#include "host_app/desk/feed/stage_points.h"
+#include "host_app/desk/feed/stage_map.h"
 #include "host_app/session/report/live_report.h"
-#include "host_app/session/report/rig_words.h"
 
 namespace vantage {
 namespace {

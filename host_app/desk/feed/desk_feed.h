@@ -10,9 +10,8 @@
 
 #include "common/base/time/rate_meter.h"
 #include "host_app/desk/desk_state.h"
-#include "host_app/desk/feed/bin_pictures.h"
-#include "host_app/desk/feed/rig_pictures.h"
-#include "host_app/session/corridor_fields.h"
+#include "host_app/desk/feed/desk_pictures.h"
+#include "host_app/desk/feed/stage_map.h"
 #include "host_app/session/live_show.h"
 
 namespace vantage {

@@ -5,7 +5,7 @@
 
 #include "host_app/control/hid/wheel_input.h"
 #include "host_app/desk/desk_state.h"
-#include "host_app/desk/feed/bin_pictures.h"
+#include "host_app/desk/feed/desk_pictures.h"
 #include "host_app/programme/programme.h"
 #include "host_app/session/report/live_report.h"
 

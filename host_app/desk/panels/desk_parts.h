@@ -46,9 +46,6 @@ DrawnDesk draw_desk(const DeskState& state, const DeskSwitches& switches, const 
 /// Height divided by width; 9/16 without a picture.
 float aspect_of(const Texture* picture);
 
-/// Draws the pictures of programme and preview.
-void draw_monitors(const Pen& pen, const DeskLayout& layout, const DeskState& state,
-                   DrawnDesk& drawn);
 // These draw the other parts of the desk, each within its rectangle.
 void draw_status(const Pen& pen, const DeskRect& rect, const DeskState& state);
 void draw_multiview(const Pen& pen, const DeskRect& rect, int rows, const DeskState& state);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "host_app/control/hid/wheel_call.h"
+#include "host_app/control/hid/wheel_input.h"
 #include "host_app/desk/desk_state.h"
 
 namespace vantage {

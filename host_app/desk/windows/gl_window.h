@@ -1,11 +1,15 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "common/gl/objects/framebuffer.h"
 #include "common/gl/objects/texture.h"
-#include "host_app/desk/windows/style.h"
+#include "host_app/desk/desk_arrangement.h"
+#include "host_app/desk/windows/pen.h"
 #include "host_app/desk/windows/ui_renderer.h"
 
 struct GLFWmonitor;
@@ -59,5 +63,21 @@ bool fit_screen(GLFWwindow* window, UiContext& ui, UiRenderer& renderer,
 
 /// Moves and resizes a window. A position outside all monitors is ignored.
 void put_window(GLFWwindow* window, const WindowPlace& place);
+
+/// Returns the work area of every monitor, in GLFW's order.
+std::vector<WindowPlace> monitor_places();
+
+/// Returns whether at least 64 x 64 units of a window are on a monitor, enough to grab it.
+bool is_on(const WindowPlace& window, const WindowPlace& monitor);
+
+/// Chooses the place of the rigs' window: the first free monitor after the operator's, which is
+/// monitor 1, or else a corner of monitor 1. Monitors that the programme fills (`filled`, counted
+/// from 1) are never used. Nothing if no monitor is free.
+std::optional<WindowPlace> place_for_rigs(std::span<const WindowPlace> monitors,
+                                          std::span<const int> filled);
+
+/// Returns whether a window covers a monitor that the programme fills.
+bool covers_programme(const WindowPlace& window, std::span<const WindowPlace> monitors,
+                      std::span<const int> filled);
 
 }  // namespace vantage

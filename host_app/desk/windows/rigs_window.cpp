@@ -7,7 +7,6 @@
 #include "common/base/error.h"
 #include "host_app/desk/panels/desk_parts.h"
 #include "host_app/desk/windows/gl_window.h"
-#include "host_app/desk/windows/window_places.h"
 
 namespace vantage {
 

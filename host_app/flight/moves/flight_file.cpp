@@ -6,7 +6,7 @@
 #include "common/base/error.h"
 #include "common/config/toml_edit.h"
 #include "common/config/toml_reader.h"
-#include "host_app/flight/flight_book.h"
+#include "host_app/flight/flight_plan.h"
 #include "host_app/flight/orbit_view.h"
 
 namespace vantage {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <set>
 
-#include "host_app/flight/flight_book.h"
+#include "host_app/flight/flight_plan.h"
 
 namespace vantage {
 namespace {

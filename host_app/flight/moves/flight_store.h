@@ -7,8 +7,8 @@
 
 #include "common/base/files/kept_file.h"
 #include "common/base/time/time.h"
-#include "host_app/flight/flight_book.h"
 #include "host_app/flight/flight_controller.h"
+#include "host_app/flight/flight_plan.h"
 #include "host_app/flight/moves/flight_recording.h"
 
 namespace vantage {

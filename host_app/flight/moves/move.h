@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "host_app/flight/corridor.h"
 #include "host_app/flight/orbit_view.h"
 
 namespace vantage {
@@ -86,5 +88,32 @@ class Move {
     FlightLimits limits_;
     MovePath path_;
 };
+
+// Edits of a move. Each returns the edited move. A move keeps looping as long as both ends show the
+// same view.
+
+/// Appends a keyframe. Its time is the last one's plus the time that passed in the take since then,
+/// or plus `after_s` without a take. Without a move the result has this keyframe only.
+Move appended(const std::optional<Move>& move, const OrbitView& view, std::optional<double> take_s,
+              double after_s, const FlightLimits& limits);
+
+/// Replaces the view of the keyframe at a time, or adds a keyframe there.
+Move with_view_at(const Move& move, double time_s, OrbitView view, std::optional<double> take_s);
+
+std::size_t nearest_keyframe(const Move& move, double time_s);
+/// Removes a keyframe; empty if it was the only one.
+std::optional<Move> without_keyframe(const Move& move, std::size_t keyframe);
+/// Shifts a keyframe and all later ones in time, but never to before the preceding keyframe. The
+/// first keyframe stays at 0.
+Move retimed(const Move& move, std::size_t keyframe, double later_s);
+
+/// A part of a move outside the corridor.
+struct UncoveredPart {
+    double from_s = 0, to_s = 0;
+    Coverage least;
+};
+
+/// All parts of a move outside the corridor, in order of time, with times to 0.1 s.
+std::vector<UncoveredPart> uncovered_parts(const Move& move, const Corridor& corridor);
 
 }  // namespace vantage

@@ -1,17 +1,70 @@
 #include "host_app/metrics/metrics_server.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <cstdlib>
+#include <string>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <microhttpd.h>
 
 #include "common/base/error.h"
 #include "common/config/socket_address.h"
 #include "host_app/control/ports/control_port.h"
-#include "host_app/metrics/prometheus_text.h"
 
 namespace vantage {
 namespace {
+
+/// Converts OpenMetrics text to Prometheus's own text format (0.0.4), which has no `# EOF` and
+/// names families of counters and facts as their samples are named.
+std::string to_prometheus_text(std::string_view open_metrics) {
+    std::string text;
+    std::string family, renamed;
+    for (std::size_t at = 0; at < open_metrics.size();) {
+        const std::size_t end = std::min(open_metrics.find('\n', at), open_metrics.size());
+        const std::string line(open_metrics.substr(at, end - at));
+        at = end + 1;
+        constexpr std::string_view type = "# TYPE ", help = "# HELP ";
+        if (line == "# EOF" || line.starts_with("# UNIT ")) continue;
+        if (line.starts_with(type)) {
+            const std::size_t space = line.find(' ', type.size());
+            family = line.substr(type.size(), space - type.size());
+            const std::string kind = line.substr(space + 1);
+            renamed = family + (kind == "counter" ? "_total" : kind == "info" ? "_info" : "");
+            text += fmt::format("{}{} {}\n", type, renamed, kind == "info" ? "gauge" : kind);
+        } else if (line.starts_with(help) &&
+                   line.compare(help.size(), family.size() + 1, family + " ") == 0) {
+            text +=
+                fmt::format("{}{}{}\n", help, renamed, line.substr(help.size() + family.size()));
+        } else {
+            text += line + '\n';
+        }
+    }
+    return text;
+}
+
+/// Whether the Accept header of an HTTP request prefers text/plain to OpenMetrics.
+bool prefers_prometheus_text(std::string_view accept) {
+    double plain = 0, open_metrics = 0;
+    for (std::size_t at = 0; at < accept.size();) {
+        const std::size_t end = std::min(accept.find(',', at), accept.size());
+        std::string part;
+        for (const char c : accept.substr(at, end - at))
+            if (c != ' ' && c != '\t')
+                part += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        at = end + 1;
+        double quality = 1;
+        if (const std::size_t q = part.find(";q="); q != std::string::npos)
+            quality = std::atof(part.c_str() + q + 3);
+        const std::string type = part.substr(0, part.find(';'));
+        if (type == "text/plain" || type == "text/*") plain = std::max(plain, quality);
+        if (type == "application/openmetrics-text" || type == "application/*")
+            open_metrics = std::max(open_metrics, quality);
+    }
+    return plain > open_metrics;
+}
 
 constexpr unsigned most_peers = 8, patience_s = 10;
 constexpr std::size_t bytes_a_peer = 16384;

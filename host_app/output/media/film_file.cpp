@@ -1,18 +1,26 @@
 #include "host_app/output/media/film_file.h"
 
-#include <algorithm>
+extern "C" {
+#include <libavutil/opt.h>
+}
 
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <fstream>
+#include <mutex>
+#include <string_view>
+
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include "common/av/av_input.h"
 #include "common/av/av_log.h"
 #include "common/base/error.h"
-#include "host_app/output/media/mp4_fragments.h"
-
-extern "C" {
-#include <libavutil/opt.h>
-}
+#include "common/base/files/atomic_file.h"
 
 namespace vantage {
 namespace {
@@ -32,7 +40,43 @@ bool is_readable(const std::filesystem::path& path) {
     return input && av_read_frame(input.get(), packet.get()) >= 0;
 }
 
+/// Header of a top-level box: ISO/IEC 14496-12, 4.2.
+struct BoxHead {
+    std::uint64_t bytes = 0;  ///< 0: until the end of the file
+    std::array<char, 4> type{};
+
+    std::string_view name() const { return {type.data(), type.size()}; }
+};
+
+std::uint64_t big_endian(std::istream& in, int bytes) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < bytes; ++i) value = value << 8 | static_cast<std::uint64_t>(in.get() & 255);
+    return value;
+}
+
+BoxHead read_head(std::istream& in) {
+    BoxHead head;
+    head.bytes = big_endian(in, 4);
+    in.read(head.type.data(), head.type.size());
+    constexpr std::uint64_t size_follows = 1;
+    if (head.bytes == size_follows) head.bytes = big_endian(in, 8);
+    return head;
+}
+
 }  // namespace
+
+DiskSync::DiskSync(const std::filesystem::path& path)
+    : fd_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)), thread_([this](const std::stop_token& stop) {
+          constexpr std::chrono::seconds period{1};
+          std::mutex mutex;
+          std::condition_variable_any woken;
+          std::unique_lock lock(mutex);
+          while (!woken.wait_for(lock, stop, period, [&] { return stop.stop_requested(); })) now();
+      }) {}
+
+void DiskSync::now() {
+    if (const int reason = sync_data(fd_.get()); reason != 0) failure_ = reason;
+}
 
 void require_film_name(const std::filesystem::path& path) { (void)container_of(path); }
 
@@ -147,6 +191,25 @@ void FilmFile::require_disk() const {
 
 void FilmFile::fail_writing(int code) const {
     fail("cannot write {}: {}", path_.string(), av_reason(code));
+}
+
+void cut_to_whole_fragments(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::uint64_t file_bytes = std::filesystem::file_size(path, error);
+    std::ifstream in(path, std::ios::binary);
+    if (error || !in) fail("cannot read {}", path.string());
+    // A fragment consists of a `moof` box and the `mdat` box after it.
+    std::uint64_t whole = 0;
+    for (std::uint64_t at = 0; at < file_bytes;) {
+        in.seekg(static_cast<std::streamoff>(at));
+        const BoxHead head = read_head(in);
+        constexpr std::uint64_t least_box = 8;
+        if (!in || head.bytes < least_box || head.bytes > file_bytes - at) break;
+        at += head.bytes;
+        if (head.name() != "moof") whole = at;
+    }
+    std::filesystem::resize_file(path, whole, error);
+    if (error) fail("cannot cut {}: {}", path.string(), error.message());
 }
 
 }  // namespace vantage

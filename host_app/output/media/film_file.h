@@ -1,15 +1,36 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <thread>
 
 #include "common/av/av_handles.h"
-#include "host_app/output/media/disk_sync.h"
+#include "common/base/files/unique_fd.h"
 #include "host_app/output/media/sound_encoder.h"
 
 namespace vantage {
+
+/// Flushes a file to its disk once a second on a thread of its own. A power cut then loses about
+/// one second, and the writer never waits for the disk.
+class DiskSync {
+  public:
+    /// The file must exist.
+    explicit DiskSync(const std::filesystem::path& path);
+
+    /// Flushes the file now and waits for it.
+    void now();
+    /// errno of a failed flush; 0: none. write() may still succeed in the meantime, until memory or
+    /// the file system is full.
+    int failure() const { return failure_; }
+
+  private:
+    UniqueFd fd_;
+    std::atomic<int> failure_ = 0;
+    std::jthread thread_;
+};
 
 /// Throws Error if the name has no extension of a film.
 void require_film_name(const std::filesystem::path& path);
@@ -72,5 +93,9 @@ class FilmFile {
     std::uint64_t bytes_ = 0;
     bool has_begun_ = false, is_ended_ = false, finished_ = false;
 };
+
+/// Removes an incomplete fragment at the end of a fragmented MP4 file, since players fail on an
+/// incomplete frame. Throws Error if the file cannot be read or cut.
+void cut_to_whole_fragments(const std::filesystem::path& path);
 
 }  // namespace vantage

@@ -1,19 +1,43 @@
 #include "host_app/session/options/show_options.h"
 
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
 #include <numbers>
 
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "common/base/error.h"
 #include "common/base/time/pulse_grid.h"
 #include "host_app/background/background_file.h"
-#include "host_app/control/ports/freed_sink.h"
-#include "host_app/control/ports/opentrackio_sink.h"
+#include "host_app/control/ports/tracking_sinks.h"
 #include "host_app/output/media/picture_encoder.h"
-#include "host_app/output/picture_target.h"
 
 namespace vantage {
 namespace {
+
+/// Checks that an image can be saved to the path, before the flight whose result it is. Throws
+/// Error for a wrong extension, for a folder that is missing or not writable, and for an existing
+/// file that may not be replaced.
+void require_picture_target(const std::filesystem::path& path, bool may_replace) {
+    const std::string extension = path.extension().string();
+    if (extension != ".png" && extension != ".jpg")
+        fail("cannot write {}: a picture is a .png or .jpg file, not '{}'", path.string(),
+             extension);
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored))
+        fail("cannot write {}: it is a folder", path.string());
+    if (!may_replace && std::filesystem::exists(path, ignored))
+        fail(
+            "{} is there already, and a picture is not replaced without being asked: take another "
+            "name, or --overwrite",
+            path.string());
+    const std::filesystem::path folder =
+        path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+    if (access(folder.c_str(), W_OK) != 0)
+        fail("cannot write {}: its folder: {}", path.string(), std::strerror(errno));
+}
 
 OrbitView start_view(const StageConfig::View& view) {
     constexpr double rad = std::numbers::pi / 180;
@@ -52,11 +76,7 @@ LiveSettings ShowOptions::settings(const StageConfig::View& view, double pulse_r
         settings.format.height_px = wanted.height;
     }
     for (const std::string& url : outputs)
-        if (is_freed_url(url))
-            (void)make_freed_sink(url, settings.rate_hz);
-        else if (is_opentrackio_url(url))
-            (void)make_opentrackio_sink(url, settings.rate_hz, settings.pulse_rate_hz);
-        else
+        if (!make_tracking_sink(url, settings.rate_hz, settings.pulse_rate_hz))
             settings.outputs.push_back(url);
     if (!film.empty()) settings.outputs.insert(settings.outputs.begin(), "file:" + film);
     OutputSupervisor::check(output_settings(settings));

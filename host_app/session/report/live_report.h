@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,13 +9,14 @@
 #include <nlohmann/json.hpp>
 
 #include "common/base/percentiles.h"
+#include "common/receive/rig_status.h"
 #include "common/receive/signal_state.h"
 #include "common/receive/stage_receiver.h"
 #include "common/take/take_recorder.h"
 #include "host_app/control/hid/jog_devices.h"
 #include "host_app/control/ports/control_ports.h"
 #include "host_app/flight/corridor.h"
-#include "host_app/flight/moves/move_coverage.h"
+#include "host_app/flight/moves/move.h"
 #include "host_app/flight/orbit_view.h"
 #include "host_app/output/output_supervisor.h"
 #include "host_app/programme/programme.h"
@@ -125,5 +127,28 @@ std::string counters_legend();
 std::vector<std::string> worries_of(const RigStatus& status);
 /// Returns only those of the computer: heat and supply.
 std::vector<std::string> computer_worries_of(const RigStatus& status);
+
+// Short texts about a rig's state for the desk and for `vantage rigs status`.
+
+/// Formats the state of a rig's clock: "PTP -120 ns", "this computer" or "no PTP"; empty if the rig
+/// is disconnected.
+std::string short_clock_words(const RigStatus& rig);
+
+/// Returns the whole days since a date such as 2026-11-23 or 2026-11-23T07:30:00Z, and 0 for a date
+/// in the future; nothing if it is not a date.
+std::optional<int> days_since(const std::string& date, std::chrono::system_clock::time_point now);
+
+/// Formats age and residual of a calibration, such as "12 d, 0.21 px"; empty if there is none.
+std::string calibration_words(const RigHealth& health, std::chrono::system_clock::time_point now);
+
+/// Whether a rig sends frames that the stage of these rigs can use.
+bool delivers(const RigStatus& rig, const std::vector<RigStatus>& rigs);
+
+/// Whether a rig is armed and starts with the first pulse of a host.
+bool waits_for_a_host(const RigStatus& rig);
+
+/// Explains why a connected rig without any other trouble sends nothing, and what to check; empty
+/// for any other rig.
+std::string silence_of(const RigStatus& rig);
 
 }  // namespace vantage

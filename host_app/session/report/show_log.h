@@ -6,7 +6,7 @@
 
 #include "common/base/time/time.h"
 #include "host_app/flight/flight_plan.h"
-#include "host_app/flight/moves/move_coverage.h"
+#include "host_app/flight/moves/move.h"
 #include "host_app/session/live_show.h"
 
 namespace vantage {

@@ -1,5 +1,3 @@
-#include "host_app/web/web_certificate.h"
-
 #include <array>
 #include <ctime>
 #include <memory>
@@ -15,6 +13,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/files/folder.h"
 #include "common/wire/random_id.h"
+#include "host_app/web/web_server.h"
 
 namespace vantage {
 namespace {

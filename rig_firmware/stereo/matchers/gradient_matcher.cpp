@@ -5,14 +5,8 @@
 #include "common/base/error.h"
 #include "rig_firmware/stereo/matcher.h"
 #include "rig_firmware/stereo/pass_profiler.h"
-#include "rig_firmware/stereo/thesis/aggregation_pass.h"
-#include "rig_firmware/stereo/thesis/discontinuity_pass.h"
-#include "rig_firmware/stereo/thesis/disparity_pass.h"
-#include "rig_firmware/stereo/thesis/hypotheses_pass.h"
-#include "rig_firmware/stereo/thesis/picture_words_pass.h"
 #include "rig_firmware/stereo/thesis/settings.h"
-#include "rig_firmware/stereo/thesis/snf_pass.h"
-#include "rig_firmware/stereo/thesis/winner_pass.h"
+#include "rig_firmware/stereo/thesis/thesis_passes.h"
 
 namespace vantage {
 namespace {

@@ -1,5 +1,5 @@
 #include "rig_firmware/stereo/disparity/streak_pass.h"
-#include "rig_firmware/stereo/disparity/upsample_rows_pass.h"
+#include "rig_firmware/stereo/disparity/upsample_pass.h"
 #include "rig_firmware/stereo/engine_matcher.h"
 #include "rig_firmware/stereo/features/halve_pass.h"
 #include "rig_firmware/stereo/volume/perm_cost_pass.h"

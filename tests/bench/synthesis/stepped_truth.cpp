@@ -18,7 +18,6 @@
 #include "host_app/flight/moves/move.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
-#include "host_app/view_sets/immersive_metrics.h"
 #include "tests/bench/support/cpu_time.h"
 #include "tests/bench/synthesis/fidelity.h"
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "host_app/camera_paths/camera_path_file.h"
+#include "host_app/camera_paths/camera_path.h"
 #include "tests/fuzz/seeds/input_file.h"
 
 /// The first byte says which form the others are in.

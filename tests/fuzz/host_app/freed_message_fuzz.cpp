@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <span>
 
-#include "host_app/control/freed/freed_message.h"
+#include "host_app/control/tracking/freed_message.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace vantage;

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "host_app/ltc/ltc_reader.h"
+#include "host_app/ltc/ltc_sound.h"
 
 /// Sound that anybody may send: every byte pair is a sample.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

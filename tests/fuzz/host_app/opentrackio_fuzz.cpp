@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "host_app/control/opentrackio/opentrackio_sample.h"
+#include "host_app/control/tracking/opentrackio_sample.h"
 
 namespace {
 

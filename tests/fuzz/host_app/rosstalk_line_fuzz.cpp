@@ -2,8 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "host_app/control/ports/messages/line_splitter.h"
-#include "host_app/control/ports/messages/rosstalk_map.h"
+#include "host_app/control/ports/messages/rosstalk.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace vantage;

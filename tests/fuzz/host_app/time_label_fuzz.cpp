@@ -6,7 +6,7 @@
 #include "common/base/error.h"
 #include "common/base/time/time_zone.h"
 #include "common/base/time/timecode.h"
-#include "host_app/replay/past_time.h"
+#include "host_app/replay/transport.h"
 
 /// A time as somebody types it: of a take, of the past, of a rig's own recording.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

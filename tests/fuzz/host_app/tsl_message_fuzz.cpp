@@ -5,7 +5,6 @@
 #include <string>
 
 #include "host_app/control/ports/messages/tsl_message.h"
-#include "host_app/control/ports/messages/tsl_stream.h"
 
 namespace vantage {
 namespace {

@@ -23,8 +23,8 @@
 #include "common/wire/curve_keys.h"
 #include "common/wire/link_message.h"
 #include "host_app/background/background_file.h"
-#include "host_app/control/opentrackio/opentrackio_sample.h"
-#include "host_app/ltc/ltc_writer.h"
+#include "host_app/control/tracking/opentrackio_sample.h"
+#include "host_app/ltc/ltc_sound.h"
 #include "tests/fuzz/seeds/seed_frames.h"
 
 namespace vantage {

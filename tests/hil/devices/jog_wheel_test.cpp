@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "host_app/control/hid/simulated/uhid_wheel.h"
+#include "host_app/control/hid/simulated_wheel.h"
 #include "tests/hil/devices/uinput_wheel.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"

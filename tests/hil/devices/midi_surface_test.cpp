@@ -88,7 +88,7 @@ TEST_F(MidiPads, SteerAndAreLitWheneverTheyArePluggedIn) {
     EXPECT_TRUE(operator_input_.take().input.find<command::ToggleHold>());
     ShowLamps shown;
     shown.hold = true;
-    lamps_.show(shown);
+    lamps_.put(shown);
     serve(*port);
     EXPECT_EQ(early->lit(45), 127);
 

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/control/freed/freed_message.h"
-#include "host_app/control/ports/udp_socket.h"
+#include "host_app/control/ports/sockets.h"
+#include "host_app/control/tracking/freed_message.h"
 
 namespace vantage {
 

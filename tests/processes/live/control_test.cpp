@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "host_app/flight/flight_book.h"
+#include "host_app/flight/flight_plan.h"
 #include "tests/processes/live/steered_show.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"

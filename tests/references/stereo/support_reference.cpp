@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "rig_firmware/stereo/disparity/support_pass.h"
+#include "rig_firmware/stereo/disparity/row_fill_pass.h"
 
 namespace vantage {
 

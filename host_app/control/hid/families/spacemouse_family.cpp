@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "host_app/control/hid/held_buttons.h"
 #include "host_app/control/hid/jog_family.h"
-#include "host_app/control/hid/report_bytes.h"
+#include "host_app/control/hid/jog_report.h"
 
 namespace vantage {
 namespace {

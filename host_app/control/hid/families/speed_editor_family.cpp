@@ -1,10 +1,11 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <optional>
 
+#include "common/base/error.h"
 #include "host_app/control/hid/jog_family.h"
-#include "host_app/control/hid/report_bytes.h"
-#include "host_app/control/hid/speed_editor_handshake.h"
+#include "host_app/control/hid/jog_report.h"
 
 namespace vantage {
 namespace {
@@ -29,6 +30,63 @@ constexpr Key keys[] = {{0x01, "smart_insert"}, {0x02, "append"},      {0x03, "r
                         {0x39, "cam7"},         {0x3a, "cam8"},        {0x3b, "cam9"},
                         {0x3c, "stop_play"}};
 constexpr std::uint16_t shuttle_key = 0x1c, jog_key = 0x1d, scroll_key = 0x1e;
+
+constexpr std::uint8_t handshake_report = 6;
+constexpr std::size_t report_bytes = 10;
+enum Step : std::uint8_t {
+    challenge = 0,
+    own_challenge = 1,
+    answer = 2,
+    response = 3,
+    verdict = 4
+};
+
+void send(JogPort& port, Step step, std::uint64_t number) {
+    std::array<std::uint8_t, report_bytes> report{handshake_report, step};
+    for (std::size_t i = 0; i < 8; ++i)
+        report[2 + i] = static_cast<std::uint8_t>(number >> (8 * i));
+    port.send_feature(report);
+}
+
+/// Receives the number of one step of the handshake.
+std::uint64_t receive(JogPort& port, Step step) {
+    const std::vector<std::uint8_t> report = port.get_feature(handshake_report, report_bytes);
+    if (report.size() < report_bytes || report[0] != handshake_report || report[1] != step)
+        fail(
+            "the Speed Editor does not follow its opening procedure at step {}; unplug it, plug it "
+            "in again and close other programs that use it",
+            static_cast<int>(step));
+    return uint_at(report, 2, 8);
+}
+
+/// Response that a DaVinci Resolve Speed Editor expects to its challenge. S. Munaut found and
+/// published the procedure and its constants (blackmagic-misc, bmd.py, 2021).
+std::uint64_t response_to(std::uint64_t challenge_number) {
+    constexpr std::uint64_t even[] = {0x3ae1206f97c10bc8, 0x2a9ab32bebf244c6, 0x20a6f8b8df9adf0a,
+                                      0xaf80ece52cfc1719, 0xec2ee2f7414fd151, 0xb055adfd73344a15,
+                                      0xa63d2e3059001187, 0x751bf623f42e0dde};
+    constexpr std::uint64_t odd[] = {0x3e22b34f502e7fde, 0x24656b981875ab1c, 0xa17f3456df7bf8c3,
+                                     0x6df72e1941aef698, 0x72226f011e66ab94, 0x3831a3c606296b42,
+                                     0xfd7ff81881332c89, 0x61a3f6474ff236c6};
+    constexpr std::uint64_t mask = 0xa79a63f585d37bf0;
+    const int n = static_cast<int>(challenge_number & 7);
+    std::uint64_t v = std::rotr(challenge_number, 8 * n);
+    const bool is_even = (v & 1) == ((0x78U >> n) & 1);
+    if (!is_even) v ^= std::rotr(v, 8);
+    return v ^ (std::rotr(v, 8) & mask) ^ (is_even ? even : odd)[n];
+}
+
+/// Unlocks a Speed Editor over feature report 6; the device sends nothing before. Returns how long
+/// it stays unlocked. Throws Error if the device does not follow the procedure.
+std::chrono::seconds unlock(JogPort& port) {
+    send(port, challenge, 0);
+    const std::uint64_t number = receive(port, challenge);
+    // The protocol lets the device prove its identity too, which the host does not need.
+    send(port, own_challenge, 0);
+    receive(port, answer);
+    send(port, response, response_to(number));
+    return std::chrono::seconds(receive(port, verdict) & 0xffff);
+}
 
 /// DaVinci Resolve Speed Editor.
 ///   report 3  u8 mode of the wheel, int32 value, u8: steps since the previous report in modes 0
@@ -78,7 +136,7 @@ class SpeedEditorDecoder final : public JogDecoder {
 
     void open(JogPort& port, MonotonicTime now) {
         constexpr std::chrono::seconds margin{60}, least{10};
-        renew_at_ = now + std::max(open_speed_editor(port) - margin, least);
+        renew_at_ = now + std::max(unlock(port) - margin, least);
     }
 
     static void set_wheel(JogPort& port, WheelMode mode) {

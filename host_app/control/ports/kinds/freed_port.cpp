@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
-#include "host_app/control/freed/freed_message.h"
 #include "host_app/control/ports/control_port.h"
-#include "host_app/control/ports/udp_socket.h"
+#include "host_app/control/ports/sockets.h"
+#include "host_app/control/tracking/freed_message.h"
 
 namespace vantage {
 namespace {

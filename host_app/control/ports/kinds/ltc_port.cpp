@@ -12,7 +12,7 @@
 #include "common/base/time/kernel_clock.h"
 #include "common/base/time/timecode.h"
 #include "host_app/control/ports/control_port.h"
-#include "host_app/ltc/ltc_reader.h"
+#include "host_app/ltc/ltc_sound.h"
 #include "host_app/sound/sound_decoder.h"
 #include "host_app/sound/sound_source.h"
 

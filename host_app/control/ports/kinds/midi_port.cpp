@@ -117,7 +117,7 @@ class MidiPort final : public ControlPort {
     void light(MonotonicTime now) {
         if (now - lit_ < midi_lamp_period) return;
         lit_ = now;
-        const ShowLamps shown = bench_.lamps.shown();
+        const ShowLamps shown = bench_.lamps.state();
         for (auto& [place, surface] : surfaces_)
             for (const MidiMessage& message : surface.due(shown))
                 if (!sequencer_.send(place, message)) {

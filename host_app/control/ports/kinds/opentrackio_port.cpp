@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
-#include "host_app/control/opentrackio/opentrackio_sample.h"
 #include "host_app/control/ports/control_port.h"
-#include "host_app/control/ports/opentrackio_place.h"
-#include "host_app/control/ports/udp_socket.h"
+#include "host_app/control/ports/sockets.h"
+#include "host_app/control/ports/tracking_sinks.h"
+#include "host_app/control/tracking/opentrackio_sample.h"
 #include "host_app/flight/orbit_view.h"
 
 namespace vantage {

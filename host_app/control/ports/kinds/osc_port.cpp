@@ -9,7 +9,7 @@
 #include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
 #include "host_app/control/ports/messages/osc_message.h"
-#include "host_app/control/ports/udp_socket.h"
+#include "host_app/control/ports/sockets.h"
 #include "host_app/control/table/control_command.h"
 
 namespace vantage {
@@ -154,7 +154,7 @@ class OscPort final : public ControlPort {
         const bool is_all = is_all_due_ || now - told_all_ >= all_again;
         if (is_all) told_all_ = now;
         is_all_due_ = false;
-        const ShowLamps shown = bench_.lamps.shown();
+        const ShowLamps shown = bench_.lamps.state();
         for (const Lamp& lamp : lamps()) {
             const LampValue value = lamp.of(shown);
             LampValue& last = last_values_[lamp.name];

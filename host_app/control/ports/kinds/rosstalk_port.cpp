@@ -5,9 +5,8 @@
 
 #include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
-#include "host_app/control/ports/messages/line_splitter.h"
-#include "host_app/control/ports/messages/rosstalk_map.h"
-#include "host_app/control/ports/tcp_listener.h"
+#include "host_app/control/ports/messages/rosstalk.h"
+#include "host_app/control/ports/sockets.h"
 
 namespace vantage {
 namespace {

@@ -5,9 +5,7 @@
 
 #include "host_app/control/ports/control_port.h"
 #include "host_app/control/ports/messages/tsl_message.h"
-#include "host_app/control/ports/messages/tsl_stream.h"
-#include "host_app/control/ports/tcp_listener.h"
-#include "host_app/control/ports/udp_socket.h"
+#include "host_app/control/ports/sockets.h"
 
 namespace vantage {
 namespace {

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "calib_tools/colour/chart.h"
 #include "calib_tools/colour/cielab.h"
 #include "calib_tools/colour/overlap.h"
 #include "common/gl/context/egl_context.h"

@@ -1,6 +1,6 @@
-#include "common/take/take_gaps.h"
-
 #include <gtest/gtest.h>
+
+#include "common/take/take_check.h"
 
 namespace vantage {
 namespace {

@@ -1,3 +1,5 @@
+#include "host_app/camera_paths/camera_path.h"
+
 #include <fstream>
 #include <numbers>
 #include <random>
@@ -8,7 +10,6 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "host_app/camera_paths/camera_path_file.h"
 #include "host_app/flight/orbit_view.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"

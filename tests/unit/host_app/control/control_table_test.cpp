@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "host_app/control/table/control_command.h"
-#include "host_app/control/table/control_words.h"
 #include "host_app/control/table/lamp.h"
 #include "tests/support/source_folder.h"
 #include "tests/unit/host_app/flight/given_commands.h"

@@ -1,6 +1,6 @@
-#include "host_app/desk/windows/window_places.h"
-
 #include <gtest/gtest.h>
+
+#include "host_app/desk/windows/gl_window.h"
 
 namespace vantage {
 namespace {

@@ -1,5 +1,3 @@
-#include "host_app/takes/kept_fetch.h"
-
 #include <atomic>
 #include <fstream>
 #include <map>
@@ -12,6 +10,7 @@
 #include "common/take/kept_files.h"
 #include "common/take/take_check.h"
 #include "common/take/take_edit.h"
+#include "host_app/takes/rig_fetch.h"
 #include "rig_firmware/keep/kept_reader.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/support/data_folder.h"

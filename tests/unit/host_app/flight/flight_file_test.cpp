@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/flight/flight_book.h"
+#include "host_app/flight/flight_plan.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/host_app/flight/looking.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/flight/moves/move_edit.h"
+#include "host_app/flight/moves/move.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "host_app/control/hid/jog_bus.h"
+#include "host_app/control/hid/jog_devices.h"
 
 namespace vantage {
 

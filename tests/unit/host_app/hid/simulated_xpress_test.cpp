@@ -1,9 +1,8 @@
-#include "host_app/control/hid/simulated/simulated_xpress.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "host_app/control/hid/jog_family.h"
+#include "host_app/control/hid/simulated_wheel.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/host_app/hid/decoded.h"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/control/hid/speed_editor_handshake.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/host_app/hid/decoded.h"
 
@@ -11,6 +10,14 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 using Events = std::vector<JogEvent>;
+
+/// The feature report of a step of the opening, with its number.
+Bytes feature(std::uint8_t step, std::uint64_t number) {
+    Bytes report{6, step};
+    for (int shift = 0; shift < 64; shift += 8)
+        report.push_back(static_cast<std::uint8_t>(number >> shift));
+    return report;
+}
 
 /// A device that answers feature reports as it is told and keeps what it is sent.
 class AnsweringPort final : public JogPort {
@@ -30,8 +37,8 @@ class AnsweringPort final : public JogPort {
         return answer;
     }
     /// One opening in order, that holds for 600 s.
-    void expect_opening() {
-        answers.insert(answers.end(), {{6, 0, 0xef, 0xcd, 0xab, 0x89, 0x67, 0x45, 0x23, 0x01},
+    void expect_opening(std::uint64_t challenge = 0x0123456789abcdef) {
+        answers.insert(answers.end(), {feature(0, challenge),
                                        {6, 2, 0, 0, 0, 0, 0, 0, 0, 0},
                                        {6, 4, 0x58, 0x02, 0, 0, 0, 0, 0, 0}});
     }
@@ -39,6 +46,8 @@ class AnsweringPort final : public JogPort {
     std::vector<Bytes> written, features;
     std::deque<Bytes> answers;
 };
+
+void open(AnsweringPort& port) { decoder_of("1edb:da0e")->start(port, monotonic_from_ns(0)); }
 
 TEST(SpeedEditorHandshake, AnswersChallengesAsTheDeviceExpects) {
     // Made with the published procedure (bmd.py).
@@ -50,14 +59,18 @@ TEST(SpeedEditorHandshake, AnswersChallengesAsTheDeviceExpects) {
                                           {0x7, 0x751bf623f42e0ade},
                                           {0xffffffffffffffff, 0x61a3f6474ff236c6},
                                           {0x8000000000000006, 0x7d7ff8188135a889}};
-    for (const auto& [challenge, response] : pairs)
-        EXPECT_EQ(speed_editor_response(challenge), response) << std::hex << challenge;
+    for (const auto& [challenge, response] : pairs) {
+        AnsweringPort port;
+        port.expect_opening(challenge);
+        open(port);
+        EXPECT_EQ(port.features.at(2), feature(3, response)) << std::hex << challenge;
+    }
 }
 
 TEST(SpeedEditorHandshake, RunsItsStepsInOrder) {
     AnsweringPort port;
     port.expect_opening();
-    EXPECT_EQ(open_speed_editor(port), std::chrono::seconds(600));
+    open(port);
     EXPECT_EQ(port.features,
               (std::vector<Bytes>{{6, 0, 0, 0, 0, 0, 0, 0, 0, 0},
                                   {6, 1, 0, 0, 0, 0, 0, 0, 0, 0},
@@ -67,11 +80,9 @@ TEST(SpeedEditorHandshake, RunsItsStepsInOrder) {
 TEST(SpeedEditorHandshake, SaysAtWhichStepTheDeviceWentAstray) {
     AnsweringPort port;
     port.answers = {{6, 0, 5, 0, 0, 0, 0, 0, 0, 0}, {6, 9, 0, 0, 0, 0, 0, 0, 0, 0}};
-    EXPECT_NE(thrown_sentence([&] { open_speed_editor(port); }).find("at step 2"),
-              std::string::npos);
+    EXPECT_NE(thrown_sentence([&] { open(port); }).find("at step 2"), std::string::npos);
     port.answers = {{6}};
-    EXPECT_NE(thrown_sentence([&] { open_speed_editor(port); }).find("at step 0"),
-              std::string::npos);
+    EXPECT_NE(thrown_sentence([&] { open(port); }).find("at step 0"), std::string::npos);
 }
 
 class SpeedEditor : public testing::Test {

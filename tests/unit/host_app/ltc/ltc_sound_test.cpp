@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
+#include "host_app/ltc/ltc_sound.h"
 
-#include "host_app/ltc/ltc_reader.h"
-#include "host_app/ltc/ltc_writer.h"
+#include <gtest/gtest.h>
 
 namespace vantage {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/ltc/ltc_writer.h"
+#include "host_app/ltc/ltc_sound.h"
 
 namespace vantage {
 namespace {

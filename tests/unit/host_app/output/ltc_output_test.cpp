@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/time/time_zone.h"
-#include "host_app/ltc/ltc_reader.h"
+#include "host_app/ltc/ltc_sound.h"
 #include "host_app/output/output_supervisor.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"

@@ -1,7 +1,7 @@
 #include <numbers>
 
-#include "host_app/control/freed/freed_message.h"
-#include "host_app/control/ports/freed_sink.h"
+#include "host_app/control/ports/tracking_sinks.h"
+#include "host_app/control/tracking/freed_message.h"
 #include "tests/unit/host_app/ports/bench_test.h"
 
 namespace vantage {
@@ -111,7 +111,8 @@ TEST_F(BenchTest, WhatALensIsTakenForIsToldOnce) {
 
 TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     const auto port = open("freed", "?camera=3");
-    const auto sink = make_freed_sink(fmt::format("freed://127.0.0.1:{}?camera=3", number_), 25);
+    const auto sink =
+        make_tracking_sink(fmt::format("freed://127.0.0.1:{}?camera=3", number_), 25, 25);
     ProgrammePicture picture;
     picture.camera = some_camera();
     picture.due = MonotonicClock::now() + std::chrono::hours(1);  // no tick after it is late
@@ -122,7 +123,7 @@ TEST_F(BenchTest, ATrackedCameraComesInAsItWentOut) {
     ASSERT_TRUE(heard);
     EXPECT_TRUE(is_same_view(*heard, some_camera()));
     EXPECT_NEAR(heard->focus_m, 4.25, 1e-3);
-    const auto other = make_freed_sink(fmt::format("freed://127.0.0.1:{}", number_), 25);
+    const auto other = make_tracking_sink(fmt::format("freed://127.0.0.1:{}", number_), 25, 25);
     other->take(picture);
     other->finish();
     peer_.send("damaged", number_);

@@ -4,7 +4,7 @@
 #include "common/av/sound.h"
 #include "common/base/time/kernel_clock.h"
 #include "common/base/time/timecode.h"
-#include "host_app/ltc/ltc_writer.h"
+#include "host_app/ltc/ltc_sound.h"
 #include "tests/support/clicks.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/eventually.h"

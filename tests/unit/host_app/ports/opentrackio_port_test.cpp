@@ -4,9 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "host_app/control/opentrackio/opentrackio_sample.h"
-#include "host_app/control/ports/opentrackio_place.h"
-#include "host_app/control/ports/opentrackio_sink.h"
+#include "host_app/control/ports/tracking_sinks.h"
+#include "host_app/control/tracking/opentrackio_sample.h"
 #include "host_app/flight/orbit_view.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
@@ -265,7 +264,7 @@ TEST(OpentrackioSample, FitsTheSchemaOfTheStandard) {
 TEST_F(BenchTest, OpentrackioOutputFliesOpentrackioControl) {
     for (const char* format : {"json", "cbor"}) {
         const auto port = open("opentrackio", "?source=3");
-        const auto sink = make_opentrackio_sink(
+        const auto sink = make_tracking_sink(
             fmt::format("opentrackio://127.0.0.1:{}?source=3&format={}", number_, format), 50, 25);
         ProgrammePicture picture;
         picture.camera = tilted_camera();
@@ -279,7 +278,7 @@ TEST_F(BenchTest, OpentrackioOutputFliesOpentrackioControl) {
         EXPECT_TRUE(is_same_view(*flown, tilted_camera()));
         EXPECT_NEAR(flown->focus_m, 4.25, 1e-6);
         const auto other =
-            make_opentrackio_sink(fmt::format("opentrackio://127.0.0.1:{}", number_), 50, 25);
+            make_tracking_sink(fmt::format("opentrackio://127.0.0.1:{}", number_), 50, 25);
         other->take(picture);
         other->finish();
         peer_.send("damaged", number_);
@@ -321,7 +320,7 @@ TEST_F(BenchTest, OpentrackioControlRemembersTheSensorAndJoinsSegments) {
 
 TEST_F(BenchTest, OpentrackioUrlsAreChecked) {
     const auto sink = [](const std::string& url) {
-        return thrown_sentence([&] { make_opentrackio_sink("opentrackio://" + url, 25, 25); });
+        return thrown_sentence([&] { make_tracking_sink("opentrackio://" + url, 25, 25); });
     };
     const auto place = [](const std::string& url) {
         return with_opentrackio_group(OutputUrl::parse("opentrackio://" + url)).place;

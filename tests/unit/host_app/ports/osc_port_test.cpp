@@ -102,7 +102,7 @@ TEST_F(OscPortTest, TellsLampsToWhoSubscribesAndAgainWhenTheyChange) {
     ShowLamps show;
     show.live = true;
     show.coverage = 0.5;
-    lamps_.show(show);
+    lamps_.put(show);
     const std::string subscribe("/vantage/subscribe\0\0,\0\0\0", 24);
     peer_.send(subscribe, number_);
     serve(*port_, 1);
@@ -120,7 +120,7 @@ TEST_F(OscPortTest, TellsLampsToWhoSubscribesAndAgainWhenTheyChange) {
     EXPECT_TRUE(told.contains(message("background", -1.0)));
     EXPECT_TRUE(told.contains(message("set", -1.0))) << "the old name is still sent";
     show.live = false;
-    lamps_.show(show);
+    lamps_.put(show);
     std::string next;
     for (int i = 0; i < 100 && next.empty(); ++i) {
         port_->serve(std::chrono::milliseconds(20));

@@ -1,7 +1,6 @@
 #include <fstream>
 
-#include "host_app/control/ports/messages/line_splitter.h"
-#include "host_app/control/ports/messages/rosstalk_map.h"
+#include "host_app/control/ports/messages/rosstalk.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/host_app/flight/given_commands.h"

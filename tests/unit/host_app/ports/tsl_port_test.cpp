@@ -1,5 +1,4 @@
 #include "host_app/control/ports/messages/tsl_message.h"
-#include "host_app/control/ports/messages/tsl_stream.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/unit/host_app/ports/bench_test.h"
 #include "tests/unit/host_app/ports/local_caller.h"

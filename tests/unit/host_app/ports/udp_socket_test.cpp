@@ -1,10 +1,8 @@
-#include "host_app/control/ports/udp_socket.h"
-
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 
-#include "host_app/control/ports/tcp_listener.h"
+#include "host_app/control/ports/sockets.h"
 #include "tests/support/free_ports.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/support/two_addresses.h"

@@ -1,7 +1,6 @@
-#include "host_app/programme/unseen_mark.h"
-
 #include <gtest/gtest.h>
 
+#include "host_app/programme/view_painter.h"
 #include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {

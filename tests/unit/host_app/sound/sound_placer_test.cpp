@@ -1,6 +1,6 @@
-#include "host_app/sound/sound_placer.h"
-
 #include <gtest/gtest.h>
+
+#include "host_app/sound/alsa_capture.h"
 
 namespace vantage {
 namespace {

@@ -1,6 +1,6 @@
-#include "host_app/sound/sound_ring.h"
-
 #include <gtest/gtest.h>
+
+#include "host_app/sound/sound_ahead.h"
 
 namespace vantage {
 namespace {

@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "common/wire/codec/colour_codec.h"
-#include "host_app/web/web_page.h"
 #include "tests/support/eventually.h"
 #include "tests/support/thrown_sentence.h"
 

@@ -1,9 +1,8 @@
-#include "rig_firmware/stereo/thesis/aggregation_pass.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
+#include "rig_firmware/stereo/thesis/thesis_passes.h"
 #include "tests/references/thesis/aggregation_reference.h"
 #include "tests/references/thesis/discontinuity_reference.h"
 #include "tests/unit/rig_firmware/stereo/thesis_buffers.h"

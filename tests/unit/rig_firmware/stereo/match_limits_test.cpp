@@ -1,8 +1,7 @@
-#include "rig_firmware/stereo/match_limits.h"
-
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "rig_firmware/stereo/matcher.h"
 
 namespace vantage {
 namespace {

@@ -1,7 +1,6 @@
-#include "rig_firmware/stereo/thesis/winner_pass.h"
-
 #include <gtest/gtest.h>
 
+#include "rig_firmware/stereo/thesis/thesis_passes.h"
 #include "tests/references/thesis/winner_reference.h"
 #include "tests/unit/rig_firmware/stereo/thesis_buffers.h"
 
