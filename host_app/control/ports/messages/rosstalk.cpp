@@ -1,3 +1,5 @@
+#include "host_app/control/ports/messages/rosstalk.h"
+
 #include <charconv>
 
 #include <fmt/format.h>
@@ -5,7 +7,6 @@
 #include "common/base/cli/nearest_name.h"
 #include "common/base/files/atomic_file.h"
 #include "common/config/toml_reader.h"
-#include "host_app/control/ports/messages/rosstalk.h"
 
 namespace vantage {
 namespace {
