@@ -177,8 +177,10 @@ class WholeShow : public testing::Test {
             ASSERT_FALSE(pictures[name].empty());
             EXPECT_GT(spread(pictures[name]), 20) << name << " shows something";
         }
-        EXPECT_LT(difference(pictures["frozen"], pictures["frozen still"]), 2);
-        EXPECT_GT(difference(pictures["frozen"], pictures["orbited"]), 8) << "another view of it";
+        const double of_another_view = difference(pictures["frozen"], pictures["orbited"]);
+        EXPECT_GT(of_another_view, 8);
+        // A moment that is held is rendered better and better, on a busy computer for seconds.
+        EXPECT_LT(difference(pictures["frozen"], pictures["frozen still"]), 0.5 * of_another_view);
         EXPECT_LT(difference(pictures["clip"], pictures["list"]), 8)
             << "its last moment, from where the camera stood";
     }
