@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -37,7 +36,8 @@ std::vector<std::string> allowed_presets(const RigConfig& config) {
 /// colour picture, or if the exact disparity, which has the colour's size, is to have another one.
 cv::Size matched_size(const RigConfig& config, const RectifiedStereo& geometry) {
     const int width_px = config.match.width_px;
-    if (width_px == 0) return {geometry.width_px, geometry.height_px};
+    const cv::Size picture(geometry.width_px, geometry.height_px);
+    if (width_px == 0) return picture;
     if (config.match.matcher == exact_matcher)
         fail(
             "'width_px' in [match] is {}, and the exact disparity has the size of the picture: "
@@ -48,8 +48,7 @@ cv::Size matched_size(const RigConfig& config, const RectifiedStereo& geometry) 
             "'width_px' in [match] is {}, and the rectified picture is {} px wide: matching more "
             "pixels than there are finds nothing; take at most {}",
             width_px, geometry.width_px, geometry.width_px);
-    const double height_px = static_cast<double>(geometry.height_px) * width_px / geometry.width_px;
-    return {width_px, std::max(1, static_cast<int>(std::lround(height_px)))};
+    return reduced_size(picture, width_px);
 }
 
 MatchSettings match_settings(const RigConfig& config, const RectifiedStereo& geometry) {

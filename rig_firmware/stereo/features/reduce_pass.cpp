@@ -21,6 +21,12 @@ int taps(cv::Size from, cv::Size to) {
 
 }  // namespace
 
+cv::Size reduced_size(cv::Size picture, int width_px) {
+    if (width_px == 0) return picture;
+    const double height_px = static_cast<double>(picture.height) * width_px / picture.width;
+    return {width_px, std::max(1, static_cast<int>(std::lround(height_px)))};
+}
+
 ReducePass::ReducePass(const ShaderLibrary& library, cv::Size from, cv::Size to)
     : from_(from),
       reduced_(TextureFormat::rgba8, to.width, to.height),

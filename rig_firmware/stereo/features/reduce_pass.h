@@ -8,6 +8,9 @@
 
 namespace vantage {
 
+/// Returns the size of a picture that is reduced to this width; 0: its own. The aspect ratio stays.
+cv::Size reduced_size(cv::Size picture, int width_px);
+
 /// Reduces the pictures of one camera to a smaller size, for a matcher that works on fewer pixels
 /// than the colour picture has. Belongs to one context.
 class ReducePass {

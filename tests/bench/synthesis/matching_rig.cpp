@@ -20,34 +20,23 @@ VirtualView camera_of(const StereoCalibration& rig) {
     return {rig.left.width_px, rig.left.height_px, rig.left.K(), rig.world_from_left};
 }
 
-namespace {
-
-/// Returns the size of the pictures that are matched.
-cv::Size match_size(const MatchingRig::Settings& settings) {
-    if (settings.match_width_px <= 0) return settings.size;
-    return {settings.match_width_px,
-            settings.size.height * settings.match_width_px / settings.size.width};
-}
-
-}  // namespace
-
 MatchingRig::MatchingRig(const ShaderLibrary& library, double azimuth_deg, std::uint64_t seed,
                          const Settings& settings)
     : calibration_(rig_at(azimuth_deg, settings.size)),
       rig_(calibration_, {.sigma = settings.noise_sigma, .seed = seed}),
       left_(TextureFormat::rgba8, settings.size.width, settings.size.height, Filter::linear),
       right_(TextureFormat::rgba8, settings.size.width, settings.size.height, Filter::linear),
+      matched_size_(reduced_size(settings.size, settings.match_width_px)),
       matcher_(make_matcher(default_matcher(settings.preset), library,
-                            {.width_px = match_size(settings).width,
-                             .height_px = match_size(settings).height,
+                            {.width_px = matched_size_.width,
+                             .height_px = matched_size_.height,
                              .disparities = settings.disparities,
                              .preset = settings.preset,
                              .of_stream = true})),
-      steady_(library, match_size(settings).width, match_size(settings).height),
+      steady_(library, matched_size_.width, matched_size_.height),
       jpeg_quality_(settings.jpeg_quality),
       chroma_(settings.chroma) {
-    if (match_size(settings) != settings.size)
-        reduce_.emplace(library, settings.size, match_size(settings));
+    if (matched_size_ != settings.size) reduce_.emplace(library, settings.size, matched_size_);
     view_.name = fmt::format("{:g}", azimuth_deg);
     view_.K = calibration_.left.K();
     view_.world_from_camera = calibration_.world_from_left;

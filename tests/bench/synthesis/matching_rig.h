@@ -51,6 +51,7 @@ class MatchingRig {
     StereoCalibration calibration_;
     VirtualRig rig_;
     Texture left_, right_;
+    cv::Size matched_size_;
     struct Reduce {
         ReducePass left, right;
         Reduce(const ShaderLibrary& library, cv::Size from, cv::Size to)
