@@ -17,6 +17,9 @@ enum class DisparityForm {
     words,   ///< LeftRightPass's: 32 bits with the confidence
     halves,  ///< 16 bits without it
 };
+inline std::size_t bytes_per_disparity(DisparityForm form) {
+    return form == DisparityForm::words ? 4 : 2;
+}
 
 /// From a buffer into the textures that a matcher gives back.
 class ResultPass {

@@ -11,13 +11,13 @@ UpsamplePass::UpsamplePass(const ShaderLibrary& library, const StereoLayout& coa
       form_(form),
       program_(Program::compute(library, "stereo_upsample.comp",
                                 {{"CONFIDENCE", form == DisparityForm::words ? "1" : "0"}})),
-      disparity_(fine.pixels() * (form == DisparityForm::words ? 4 : 2), GL_DYNAMIC_COPY) {}
+      disparity_(fine.pixels() * bytes_per_disparity(form), GL_DYNAMIC_COPY) {}
 
 void UpsamplePass::run(PassProfiler& profiler, const Buffer& coarse_disparity,
                        const Buffer& coarse_luma, const Buffer& fine_luma) {
     const std::size_t pixels = fine_.pixels();
     // The coarse disparity and luma and the fine luma are read.
-    const std::size_t bytes_per_pixel = 3 + (form_ == DisparityForm::words ? 4 : 2);
+    const std::size_t bytes_per_pixel = 3 + bytes_per_disparity(form_);
     profiler.run("upsample", {pixels * bytes_per_pixel, static_cast<double>(pixels) * 67}, [&] {
         program_.use();
         program_.set("coarse_size", Eigen::Vector2i(coarse_.width_px, coarse_.height_px));
@@ -41,14 +41,14 @@ UpsampleRowsPass::UpsampleRowsPass(const ShaderLibrary& library, const StereoLay
       form_(form),
       program_(Program::compute(library, "stereo_upsample_rows.comp",
                                 {{"CONFIDENCE", form == DisparityForm::words ? "1" : "0"}})),
-      disparity_(fine.pixels() * (form == DisparityForm::words ? 4 : 2), GL_DYNAMIC_COPY) {}
+      disparity_(fine.pixels() * bytes_per_disparity(form), GL_DYNAMIC_COPY) {}
 
 void UpsampleRowsPass::run(PassProfiler& profiler, const Buffer& coarse_disparity,
                            const Buffer& coarse_luma, const Buffer& fine_luma) {
     const std::size_t pixels = fine_.pixels();
     const StereoLayout coarse = with_half_the_rows(fine_);
     // The fine luma, half of a coarse one and half of a coarse disparity are read.
-    const std::size_t bytes_per_pixel = 4 + (form_ == DisparityForm::words ? 4 : 2);
+    const std::size_t bytes_per_pixel = 4 + bytes_per_disparity(form_);
     profiler.run("upsample", {pixels * bytes_per_pixel, static_cast<double>(pixels) * 25}, [&] {
         program_.use();
         program_.set("coarse_size", Eigen::Vector2i(coarse.width_px, coarse.height_px));
