@@ -14,6 +14,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/base/log.h"
 #include "common/config/calibration_file.h"
+#include "common/virtual_stage/performer.h"
 #include "host_app/commands/demo/demo_stage.h"
 #include "host_app/commands/demo/filmed_pair.h"
 #include "host_app/commands/live_session.h"
@@ -67,8 +68,8 @@ nlohmann::json ask_program(const std::filesystem::path& folder, const std::strin
 
 /// Returns the memory that the pairs of the stage's loop take in a rig, MB.
 int loop_mb(const DemoSize& size) {
-    constexpr double loop_s = 24, bytes_per_px = 2 * 3;
-    const double pairs = std::ceil(loop_s * size.rate_hz);
+    constexpr double bytes_per_px = 2 * 3;
+    const double pairs = std::ceil(static_cast<double>(stage_loop.count()) * size.rate_hz);
     return static_cast<int>(std::ceil(1e-6 * pairs * size.rig[0] * size.rig[1] * bytes_per_px));
 }
 
@@ -320,11 +321,7 @@ CommandEntry demo_command_entry() {
             ->check(CLI::PositiveNumber)
             ->capture_default_str();
         command->add_flag("--json", options->json, "Print the summary as JSON");
-        command
-            ->add_option("--trace", options->trace,
-                         "Write when each step of the way from input and rigs to the outputs ran, "
-                         "as a trace for Perfetto (JSON; docs/develop/testing.md)")
-            ->type_name("FILE");
+        command->add_option("--trace", options->trace, trace_help)->type_name("FILE");
         command->add_flag("--rigs-only", options->rigs_only,
                           "Start only the rigs, print the path of their stage file, and wait, so "
                           "that other hosts "

@@ -18,6 +18,10 @@ namespace vantage {
 inline constexpr const char* stage_file_help =
     "Stage file (TOML); every key is in hw_config/stage.toml (installed: "
     "/usr/share/doc/vantage/examples/stage.toml)";
+/// Help of --trace.
+inline constexpr const char* trace_help =
+    "Write when each step of the way from input and rigs to the outputs ran, as a trace for "
+    "Perfetto (JSON; docs/develop/testing.md)";
 /// The files that --wheels accepts.
 inline constexpr const char* wheel_files_help =
     "a file such as those in hw_config/jog (installed: /usr/share/doc/vantage/examples/jog), or a "

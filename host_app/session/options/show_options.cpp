@@ -227,12 +227,7 @@ void ShowOptions::add_to(CLI::App& command, const std::string& owner) {
         ->type_name("URL")
         ->allow_extra_args(false)
         ->group(group::output);
-    command
-        .add_option("--trace", trace,
-                    "Write when each step of the way from input and rigs to the outputs ran, as a "
-                    "trace for Perfetto (JSON; docs/develop/testing.md)")
-        ->type_name("FILE")
-        ->group(group::expert);
+    command.add_option("--trace", trace, trace_help)->type_name("FILE")->group(group::expert);
     command
         .add_option("--encoder", encoder,
                     fmt::format("Encode with one of {} (default: the first that works; the log "
