@@ -4,7 +4,6 @@
 #include <functional>
 #include <iostream>
 #include <map>
-#include <numbers>
 #include <span>
 #include <sstream>
 #include <string>
@@ -17,7 +16,6 @@
 #include "common/gl/context/limits.h"
 #include "common/gl/objects/gpu_timer.h"
 #include "common/image/image_file.h"
-#include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
@@ -27,39 +25,18 @@
 #include "tests/bench/support/run_bench.h"
 #include "tests/bench/synthesis/own_matching_table.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/stage_camera_at.h"
 
 namespace vantage {
 namespace {
 
-using namespace std::chrono_literals;
-
-constexpr auto stage_time = 2s;
 constexpr int repeats = 5;
-
-StageCamera camera_at(double azimuth_deg, cv::Size size) {
-    const StereoCalibration rig =
-        ideal_virtual_rig({.azimuth_rad = azimuth_deg * std::numbers::pi / 180,
-                           .width_px = size.width,
-                           .height_px = size.height});
-    return {size.width, size.height, rig.left.K(), rig.world_from_left};
-}
-
-/// What an ideal rig knows: the picture of its left camera with exact depth.
-DepthView film(VirtualStage& stage, double azimuth_deg, cv::Size size) {
-    const StageCamera camera = camera_at(azimuth_deg, size);
-    StageRendering seen = stage.render(camera, stage_time);
-    return {.name = fmt::format("{:g}", azimuth_deg),
-            .colour = seen.colour,
-            .K = camera.K,
-            .world_from_camera = camera.world_from_camera,
-            .depth_m = seen.depth_m,
-            .baseline_m = VirtualRigPlacement{}.baseline_m};
-}
 
 std::vector<DepthView> film(VirtualStage& stage, const std::vector<double>& azimuths_deg,
                             cv::Size size) {
     std::vector<DepthView> views;
-    for (const double azimuth_deg : azimuths_deg) views.push_back(film(stage, azimuth_deg, size));
+    for (const double azimuth_deg : azimuths_deg)
+        views.push_back(exact_view_at(stage, azimuth_deg, size.width, size.height));
     return views;
 }
 
@@ -123,7 +100,7 @@ class Bench {
               Case{"±15, ±45", {-45, -15, 15, 45}, 30}, Case{"±20, ±60", {-60, -20, 20, 60}, 0},
               Case{"±4", {-4, 4}, 0}}) {
             const auto views = film(stage_, one.azimuths_deg, {320, 240});
-            const DepthView truth = film(stage_, one.view_deg, {320, 240});
+            const DepthView truth = exact_view_at(stage_, one.view_deg, 320, 240);
             const cv::Mat1b band = depth_edge_band(truth.depth_m, 5);
             std::map<std::string, ColourImage> pictures;
             for (const SynthesiserEntry& entry : compared())
@@ -160,7 +137,7 @@ class Bench {
     void times(cv::Size size, const char* name) {
         const std::vector<DepthView> all =
             film(stage_, {-15, 15, -45, 45, -30, 30, -60, 60}, {640, 480});
-        const StageCamera camera = camera_at(0, size);
+        const StageCamera camera = camera_at(0, size.width, size.height);
         const VirtualView target{size.width, size.height, camera.K, camera.world_from_camera};
         struct Timed {
             std::span<const DepthView> views;

@@ -7,7 +7,7 @@
 #include "host_app/baked/background_probe.h"
 #include "host_app/fused/staged_preparer.h"
 #include "host_app/synthesis/synthesiser.h"
-#include "tests/unit/host_app/fused/stage_camera_at.h"
+#include "tests/support/stage_camera_at.h"
 
 namespace vantage {
 namespace {

@@ -14,7 +14,7 @@
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/support/deviation_along_time.h"
-#include "tests/unit/host_app/fused/stage_camera_at.h"
+#include "tests/support/stage_camera_at.h"
 
 namespace vantage {
 namespace {

@@ -6,8 +6,8 @@
 #include "common/gl/context/egl_context.h"
 #include "common/virtual_stage/virtual_stage.h"
 #include "host_app/view_sets/image_metrics.h"
+#include "tests/support/stage_camera_at.h"
 #include "tests/support/thrown_sentence.h"
-#include "tests/unit/host_app/fused/stage_camera_at.h"
 
 namespace vantage {
 namespace {

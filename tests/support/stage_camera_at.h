@@ -22,7 +22,7 @@ inline StageCamera camera_at(double azimuth_deg, int width_px, int height_px) {
     return {width_px, height_px, rig.left.K(), rig.world_from_left};
 }
 
-/// What an ideal rig knows: the picture of its left camera with exact depth.
+/// Returns the picture of the left camera of an ideal rig, with exact depth.
 inline DepthView exact_view_at(VirtualStage& stage, double azimuth_deg, int width_px, int height_px,
                                std::chrono::nanoseconds time = stage_time) {
     const StageCamera camera = camera_at(azimuth_deg, width_px, height_px);
