@@ -104,7 +104,7 @@ void WheelInput::obey(const WheelCall& call) {
     {
         const std::lock_guard lock(mutex_);
         remark_.clear();
-        if (call.what == WheelCall::What::close) is_open_ = false;
+        if (call.action == WheelCall::Action::close) is_open_ = false;
         const auto found = wheels_.find(in_hand_);
         if (!is_open_ || found == wheels_.end() || found->second.controls.empty()) return;
         devices = in_hand_;
@@ -128,27 +128,27 @@ void WheelInput::obey(const WheelCall& call) {
 
 std::string WheelInput::obey(Wheel& wheel, const WheelCall& call) {
     const auto count = static_cast<int>(wheel.controls.size());
-    switch (call.what) {
-        case WheelCall::What::select_by:
+    switch (call.action) {
+        case WheelCall::Action::select_by:
             wheel.selected = static_cast<std::size_t>(
                 std::clamp(static_cast<int>(wheel.selected) + call.amount, 0, count - 1));
             break;
-        case WheelCall::What::select:
+        case WheelCall::Action::select:
             for (std::size_t i = 0; i < wheel.controls.size(); ++i)
                 if (wheel.controls[i].name == call.words) wheel.selected = i;
             break;
-        case WheelCall::What::assign:
+        case WheelCall::Action::assign:
             assign(wheel, call.words);
             break;
-        case WheelCall::What::steps:
-        case WheelCall::What::dead_zone:
-        case WheelCall::What::curve:
-        case WheelCall::What::invert:
+        case WheelCall::Action::steps:
+        case WheelCall::Action::dead_zone:
+        case WheelCall::Action::curve:
+        case WheelCall::Action::invert:
             feel(wheel, call);
             break;
-        case WheelCall::What::save:
+        case WheelCall::Action::save:
             return save(wheel);
-        case WheelCall::What::close:
+        case WheelCall::Action::close:
             break;
     }
     return "";
@@ -185,15 +185,15 @@ void WheelInput::feel(Wheel& wheel, const WheelCall& call) {
     const auto set_number = [&](const char* key, double value) {
         set(wheel, axis_table(control), key, fmt::format("{:.3f}", value));
     };
-    if (call.what == WheelCall::What::invert)
+    if (call.action == WheelCall::Action::invert)
         return set(wheel, axis_table(control), "inverted", map.inverted ? "false" : "true");
-    if (call.what == WheelCall::What::steps)
+    if (call.action == WheelCall::Action::steps)
         return set_number("sensitivity",
                           std::clamp(map.sensitivity * std::pow(steps_factor, call.amount),
                                      least_steps, most_steps_factor));
     if (control.kind == JogKind::step)
         fail("{} turns without a rest: it has no dead zone and no curve", control.name);
-    if (call.what == WheelCall::What::dead_zone)
+    if (call.action == WheelCall::Action::dead_zone)
         set_number("dead_zone",
                    std::clamp(map.dead_zone + dead_zone_step * call.amount, 0.0, most_dead_zone));
     else

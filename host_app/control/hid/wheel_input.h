@@ -13,7 +13,7 @@ namespace vantage {
 
 /// Operator's request to the editor of a wheel's map.
 struct WheelCall {
-    enum class What {
+    enum class Action {
         select_by,  ///< moves the selection by `amount` controls
         select,     ///< selects the control called `words`
         assign,     ///< assigns `words`, a command or "nothing", to the selected control
@@ -25,7 +25,7 @@ struct WheelCall {
         save,
         close,
     };
-    What what = What::close;
+    Action action = Action::close;
     int amount = 0;
     std::string words = {};
 

@@ -74,14 +74,14 @@ void WheelPanel::type(unsigned codepoint) {
 }
 
 std::optional<WheelCall> WheelPanel::press(Key key) {
-    using What = WheelCall::What;
+    using Action = WheelCall::Action;
     if (is_choosing_) return press_while_choosing(key);
     constexpr std::size_t feels = 4;  // steps, dead zone, curve, inverted
     switch (key) {
         case Key::up:
-            return WheelCall{What::select_by, -1};
+            return WheelCall{Action::select_by, -1};
         case Key::down:
-            return WheelCall{What::select_by, 1};
+            return WheelCall{Action::select_by, 1};
         case Key::left:
         case Key::right:
             if (!has_feel_) return std::nullopt;
@@ -93,7 +93,7 @@ std::optional<WheelCall> WheelPanel::press(Key key) {
             if (!names_.empty()) choose(true);
             return std::nullopt;
         case Key::escape:
-            return WheelCall{What::close};
+            return WheelCall{Action::close};
         case Key::backspace:
             break;
     }
@@ -110,7 +110,7 @@ std::optional<WheelCall> WheelPanel::press_while_choosing(Key key) {
             break;
         case Key::enter:
             if (chosen_ < choices_.size()) {
-                const WheelCall call{WheelCall::What::assign, 0, choices_[chosen_].action};
+                const WheelCall call{WheelCall::Action::assign, 0, choices_[chosen_].action};
                 choose(false);
                 return call;
             }
@@ -135,14 +135,14 @@ std::optional<WheelCall> WheelPanel::press_while_choosing(Key key) {
 }
 
 WheelCall WheelPanel::feel(int steps) const {
-    constexpr WheelCall::What whats[] = {WheelCall::What::steps, WheelCall::What::dead_zone,
-                                         WheelCall::What::curve, WheelCall::What::invert};
-    return {whats[feel_in_hand_], steps};
+    constexpr WheelCall::Action actions[] = {WheelCall::Action::steps, WheelCall::Action::dead_zone,
+                                             WheelCall::Action::curve, WheelCall::Action::invert};
+    return {actions[feel_in_hand_], steps};
 }
 
 WheelCall WheelPanel::press_control(int number) {
     choose(false);
-    return {WheelCall::What::select, 0, names_.at(static_cast<std::size_t>(number - 1))};
+    return {WheelCall::Action::select, 0, names_.at(static_cast<std::size_t>(number - 1))};
 }
 
 }  // namespace vantage

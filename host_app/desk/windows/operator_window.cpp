@@ -242,8 +242,8 @@ void OperatorWindow::press_in_panel(int key, bool with_control) {
     std::optional<WheelCall> call;
     for (const auto& [known, meant] : keys)
         if (key == known) call = panel_.press(meant);
-    if (with_control && key == GLFW_KEY_S) call = WheelCall{WheelCall::What::save};
-    if (with_control && key == GLFW_KEY_M) call = WheelCall{WheelCall::What::close};
+    if (with_control && key == GLFW_KEY_S) call = WheelCall{WheelCall::Action::save};
+    if (with_control && key == GLFW_KEY_M) call = WheelCall{WheelCall::Action::close};
     if (call) wheel_calls_.push_back(*call);
 }
 

@@ -427,8 +427,8 @@ TEST_F(FlightControlsTest, WheelMovesNothingWhileItsMapIsOpen) {
     }
     EXPECT_NEAR(azimuth_rad_, before_rad, 1e-6) << "not even by the ring that is held";
     EXPECT_NE(controls_.lines().wheel.find("moves nothing"), std::string::npos);
-    controls_.wheels().obey({WheelCall::What::assign, 0, "mark_in"});
-    controls_.wheels().obey({WheelCall::What::close});
+    controls_.wheels().obey({WheelCall::Action::assign, 0, "mark_in"});
+    controls_.wheels().obey({WheelCall::Action::close});
     EXPECT_NE((step(), controls_.lines().wheel).find("unsaved changes"), std::string::npos);
     push_button(1);
     EXPECT_TRUE(has<command::MarkIn>(step().time)) << "and it flies to no shot";

@@ -7,7 +7,7 @@ namespace {
 
 using Key = WheelPanel::Key;
 using Kind = DeskWheel::Kind;
-using What = WheelCall::What;
+using Action = WheelCall::Action;
 
 class WheelPanelTest : public testing::Test {
   protected:
@@ -33,10 +33,10 @@ class WheelPanelTest : public testing::Test {
 };
 
 TEST_F(WheelPanelTest, SelectsControls) {
-    EXPECT_EQ(panel_.press(Key::down), (WheelCall{What::select_by, 1}));
-    EXPECT_EQ(panel_.press(Key::up), (WheelCall{What::select_by, -1}));
-    EXPECT_EQ(panel_.press_control(2), (WheelCall{What::select, 0, "b1"}));
-    EXPECT_EQ(panel_.press(Key::escape), WheelCall{What::close});
+    EXPECT_EQ(panel_.press(Key::down), (WheelCall{Action::select_by, 1}));
+    EXPECT_EQ(panel_.press(Key::up), (WheelCall{Action::select_by, -1}));
+    EXPECT_EQ(panel_.press_control(2), (WheelCall{Action::select, 0, "b1"}));
+    EXPECT_EQ(panel_.press(Key::escape), WheelCall{Action::close});
 }
 
 TEST_F(WheelPanelTest, AssignsAChosenCommand) {
@@ -48,7 +48,7 @@ TEST_F(WheelPanelTest, AssignsAChosenCommand) {
     ASSERT_GE(shown.choices.size(), 2u);
     EXPECT_EQ(shown.choices[0].action, "mark_in");
     EXPECT_EQ(panel_.press(Key::down), std::nullopt);
-    EXPECT_EQ(panel_.press(Key::enter), (WheelCall{What::assign, 0, "mark_out"}));
+    EXPECT_EQ(panel_.press(Key::enter), (WheelCall{Action::assign, 0, "mark_out"}));
     EXPECT_FALSE(follow().is_choosing);
 }
 
@@ -84,11 +84,11 @@ TEST_F(WheelPanelTest, ForgetsAChoiceForAnotherControl) {
 }
 
 TEST_F(WheelPanelTest, ChangesTheSelectedPartOfTheResponse) {
-    EXPECT_EQ(panel_.press(Key::right), (WheelCall{What::steps, 1}));
+    EXPECT_EQ(panel_.press(Key::right), (WheelCall{Action::steps, 1}));
     panel_.press(Key::tab);
     panel_.press(Key::tab);
     EXPECT_EQ(follow().feel_in_hand, 2u);
-    EXPECT_EQ(panel_.press(Key::left), (WheelCall{What::curve, -1}));
+    EXPECT_EQ(panel_.press(Key::left), (WheelCall{Action::curve, -1}));
     wheel_.selected = 1;
     follow();
     EXPECT_EQ(panel_.press(Key::left), std::nullopt) << "a button has no response";

@@ -10,7 +10,7 @@
 namespace vantage {
 namespace {
 
-using What = WheelCall::What;
+using Action = WheelCall::Action;
 
 /// A ShuttleXpress at a desk whose user has a home of his own.
 class WheelInputTest : public testing::Test {
@@ -65,44 +65,44 @@ TEST_F(WheelInputTest, ShowsTheMapAndTakesWhatIsMovedInHand) {
 TEST_F(WheelInputTest, ChangesTheMapAtOnceAndSaysThatItIsNotSaved) {
     move(JogKind::button, "b2", 1);
     EXPECT_TRUE(desk_.unsaved().empty());
-    desk_.obey({What::assign, 0, "mark_in"});
+    desk_.obey({Action::assign, 0, "mark_in"});
     EXPECT_EQ(in_hand().does, "mark_in");
     EXPECT_TRUE(view().is_changed);
     EXPECT_EQ(desk_.unsaved(), std::vector<std::string>{"Contour ShuttleXpress"});
     EXPECT_EQ(move(JogKind::button, "b2", 0)->buttons.at("b2").call.command->name,
               std::string("mark_in"))
         << "of a device that the deck knows by the old map";
-    desk_.obey({What::assign, 0, "shot 2"});
+    desk_.obey({Action::assign, 0, "shot 2"});
     EXPECT_FALSE(view().is_changed) << "it is what it was";
 }
 
 TEST_F(WheelInputTest, LeavesTheMapWhereAChangeCannotBe) {
     move(JogKind::button, "b2", 1);
-    desk_.obey({What::assign, 0, "mark_inn"});
+    desk_.obey({Action::assign, 0, "mark_inn"});
     EXPECT_EQ(in_hand().does, "shot 2");
     EXPECT_NE(view().remark.find("mark_in"), std::string::npos) << view().remark;
-    desk_.obey({What::curve, 1});
+    desk_.obey({Action::curve, 1});
     EXPECT_NE(view().remark.find("button"), std::string::npos);
     move(JogKind::step, "jog", 1);
-    desk_.obey({What::assign, 0, "shuttle"});
+    desk_.obey({Action::assign, 0, "shuttle"});
     EXPECT_NE(view().remark.find("without a rest"), std::string::npos);
-    desk_.obey({What::dead_zone, 1});
+    desk_.obey({Action::dead_zone, 1});
     EXPECT_NE(view().remark.find("no dead zone"), std::string::npos);
     EXPECT_FALSE(view().is_changed);
 }
 
 TEST_F(WheelInputTest, ChangesHowAControlFeelsWithinLimits) {
     move(JogKind::axis, "shuttle", 0.5);
-    desk_.obey({What::dead_zone, 5});
-    desk_.obey({What::curve, 3});
-    desk_.obey({What::steps, 1});
-    desk_.obey({What::invert});
+    desk_.obey({Action::dead_zone, 5});
+    desk_.obey({Action::curve, 3});
+    desk_.obey({Action::steps, 1});
+    desk_.obey({Action::invert});
     EXPECT_NEAR(view().feel.dead_zone, 0.1, 1e-6);
     EXPECT_NEAR(view().feel.curve, 1.3, 1e-6);
     EXPECT_NEAR(view().feel.sensitivity, 1.1, 1e-6);
     EXPECT_TRUE(view().feel.inverted);
-    desk_.obey({What::dead_zone, 1000});
-    desk_.obey({What::curve, -1000});
+    desk_.obey({Action::dead_zone, 1000});
+    desk_.obey({Action::curve, -1000});
     EXPECT_NEAR(view().feel.dead_zone, 0.9, 1e-6);
     EXPECT_NEAR(view().feel.curve, 0.2, 1e-6);
     EXPECT_EQ(view().remark, "");
@@ -110,8 +110,8 @@ TEST_F(WheelInputTest, ChangesHowAControlFeelsWithinLimits) {
 
 TEST_F(WheelInputTest, SavesThePackagedMapAsTheUsersOwnWithItsComments) {
     move(JogKind::button, "b2", 1);
-    desk_.obey({What::assign, 0, "mark_in"});
-    desk_.obey({What::save});
+    desk_.obey({Action::assign, 0, "mark_in"});
+    desk_.obey({Action::save});
     const std::filesystem::path file = home_.path() / "vantage/jog/shuttle_xpress.toml";
     EXPECT_EQ(view().remark, "saved in " + file.string());
     EXPECT_TRUE(desk_.unsaved().empty());
@@ -121,8 +121,8 @@ TEST_F(WheelInputTest, SavesThePackagedMapAsTheUsersOwnWithItsComments) {
     const auto profiles = load_all_wheel_profiles({});
     const WheelProfile* const next = find_profile(profiles, {0x0b33, 0x0020});
     EXPECT_EQ(action_of(*next, {JogKind::button, "b2"}), "mark_in") << "the next time";
-    desk_.obey({What::assign, 0, "live"});
-    desk_.obey({What::save});
+    desk_.obey({Action::assign, 0, "live"});
+    desk_.obey({Action::save});
     EXPECT_NE(read_text_file(file, 1 << 20).find("b2 = \"live\""), std::string::npos) << "again";
 }
 
@@ -131,8 +131,8 @@ TEST_F(WheelInputTest, ReplacesNoFileThatSomebodyElseHasWritten) {
     std::filesystem::create_directories(file.parent_path());
     write_text_atomically(file, "mine");
     move(JogKind::button, "b2", 1);
-    desk_.obey({What::assign, 0, "mark_in"});
-    desk_.obey({What::save});
+    desk_.obey({Action::assign, 0, "mark_in"});
+    desk_.obey({Action::save});
     EXPECT_NE(view().remark.find("move it away"), std::string::npos) << view().remark;
     EXPECT_EQ(read_text_file(file, 100), "mine");
     EXPECT_TRUE(view().is_changed);
@@ -140,9 +140,9 @@ TEST_F(WheelInputTest, ReplacesNoFileThatSomebodyElseHasWritten) {
 
 TEST_F(WheelInputTest, ObeysNothingWhileItIsClosed) {
     move(JogKind::button, "b2", 1);
-    desk_.obey({What::close});
+    desk_.obey({Action::close});
     EXPECT_FALSE(desk_.view(now_));
-    desk_.obey({What::assign, 0, "mark_in"});
+    desk_.obey({Action::assign, 0, "mark_in"});
     EXPECT_TRUE(desk_.unsaved().empty());
 }
 
@@ -152,7 +152,7 @@ TEST_F(WheelInputTest, HasNothingToShowWithoutAWheel) {
     EXPECT_FALSE(bare.is_open()) << "there is no desk to show it, and wheels would stand still";
     bare.serve_desk();
     bare.toggle();
-    bare.obey({What::assign, 0, "mark_in"});
+    bare.obey({Action::assign, 0, "mark_in"});
     ASSERT_TRUE(bare.view(now_));
     EXPECT_EQ(bare.view(now_)->name, "");
 }

@@ -385,7 +385,7 @@ TEST_F(OperatorInput, AStoredShotIsReplacedByTheSecondPressOnly) {
 }
 
 TEST_F(OperatorInput, KeysGoToAnOpenWheelMapOnly) {
-    using What = WheelCall::What;
+    using Action = WheelCall::Action;
     EXPECT_TRUE(after({"key", "ctrl+m"}).find<command::ToggleJogMap>());
     DeskWheel wheel;
     wheel.controls = {{DeskWheel::Kind::button, "b1", "shot 1"}};
@@ -397,9 +397,9 @@ TEST_F(OperatorInput, KeysGoToAnOpenWheelMapOnly) {
                "384", "192",    "mouseup",   "1",   "click", "4"});
     EXPECT_FALSE(input.is_any());
     EXPECT_EQ(window_->take_wheel_calls(),
-              (std::vector<WheelCall>{{What::assign, 0, "take"}, {What::save}}));
+              (std::vector<WheelCall>{{Action::assign, 0, "take"}, {Action::save}}));
     after({"key", "Escape"});
-    EXPECT_EQ(window_->take_wheel_calls(), (std::vector<WheelCall>{{What::close}}));
+    EXPECT_EQ(window_->take_wheel_calls(), (std::vector<WheelCall>{{Action::close}}));
     state_.wheel_map.reset();
     look(0);
     EXPECT_FALSE(window_->closed());
