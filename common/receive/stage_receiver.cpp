@@ -270,8 +270,7 @@ struct StageReceiver::Impl {
         if (reason.empty())
             reason = fmt::format(
                 "something at {} accepts connections but does not speak Vantage's protocol: the "
-                "rig or "
-                "this host is stopped or busy, or another program has the port",
+                "rig or this host is stopped or busy, or another program has the port",
                 rig.endpoint.text());
         const std::lock_guard lock(mutex);
         if (!address.empty()) rig.answering_address = std::move(address);

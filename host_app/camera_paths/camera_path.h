@@ -60,7 +60,7 @@ std::vector<CameraPathForm> camera_path_forms();
 /// Throws Error that lists the names there are.
 CameraPathForm form_of(const std::filesystem::path& file);
 
-/// What a file without a camera, or with too many, is refused with.
+/// Throws Error, naming the file, if it has no camera or more than most_cameras.
 void require_cameras(std::size_t count, const std::filesystem::path& file);
 /// Throws Error, naming the file, for a lens that Vantage has not.
 double checked_field_of_view(double angle_rad, const std::filesystem::path& file);

@@ -122,8 +122,8 @@ std::string fault_of(const Session& session, const PairOffer& offer) {
         if (rig.name == offer.rig && rig.public_key != offer.public_key)
             return fmt::format(
                 "{} has a rig '{}' with another key; if this is another rig, give it another "
-                "'name' in "
-                "its rig.toml; if it was reinstalled, remove its table from the stage file and use "
+                "'name' in its rig.toml; if it was reinstalled, remove its table from the stage "
+                "file and use "
                 "--add",
                 file, offer.rig);
     if (!session.knows(offer.rig) && !session.may_add)

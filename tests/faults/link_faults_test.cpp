@@ -31,7 +31,7 @@ struct NetworkFault {
     std::string name;
     RoadTrouble trouble;
     std::chrono::milliseconds lasts = beats_of_trouble * beat_period;
-    /// What packets meet that leave the rig; empty: the same as those that come to it.
+    /// Trouble of packets from the rig; empty: the same as of those to it.
     std::optional<RoadTrouble> from_rig = std::nullopt;
     friend void PrintTo(const NetworkFault& fault, std::ostream* out) { *out << fault.name; }
 };

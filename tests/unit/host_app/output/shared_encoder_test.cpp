@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 constexpr int width_px = 160, height_px = 120;
 
-/// What a stream target was given; it may be slow.
+/// The frames that a stream target has received. While it hangs, it takes no more.
 struct Received {
     std::mutex mutex;
     std::vector<EncodedPicture> pictures;
