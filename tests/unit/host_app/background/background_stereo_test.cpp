@@ -112,6 +112,45 @@ TEST(BackgroundStereo, KeepsTheRigsOwnDepthOnPlainSurfaces) {
     EXPECT_EQ(pixels_at(depth_m, wall_behind_m, farther), farther.area());
 }
 
+/// The background of a rig at x, 1.5 m above a floor (y = 0) before a wall. The floor has a pattern
+/// on the left only; on its right, the rig's own depth is wavy.
+BackgroundView background_with_floor(double x_m) {
+    BackgroundView view;
+    view.K << 150, 0, 80, 0, 150, 60, 0, 0, 1;
+    view.world_from_camera.translation() = Eigen::Vector3d(x_m, -1.5, 0);
+    view.baseline_m = 0.15;
+    view.colour = ColourImage(matched_size, cv::Vec4b(150, 150, 150, 255));
+    view.depth_m = DepthImage(matched_size);
+    for (int y = 0; y < matched_size.height; ++y)
+        for (int x = 0; x < matched_size.width; ++x) {
+            const double z_m = 1 / std::max(1.0 / 8, (y - 60) / (150 * 1.5)),
+                         at_m = x_m + z_m * (x - 80) / 150;
+            const bool is_plain = z_m < 7.99 && at_m > 0;
+            view.depth_m(y, x) = static_cast<float>(
+                is_plain ? z_m * (1 + 0.05 * std::sin(x / 9.0) * std::sin(y / 7.0)) : z_m);
+            if (is_plain) continue;
+            const long column = std::lround(at_m * 12),
+                       row = z_m < 7.99 ? std::lround(z_m * 12) : y;
+            cv::RNG cell(static_cast<std::uint64_t>((column + 400) * 1000 + row + 1));
+            for (int c = 0; c < 3; ++c)
+                view.colour(y, x)[c] = static_cast<uchar>(cell.uniform(20, 230));
+        }
+    return view;
+}
+
+TEST(BackgroundStereo, ContinuesAPlaneWhereItIsPlain) {
+    const std::vector<BackgroundView> views{background_with_floor(0), background_with_floor(-0.5),
+                                            background_with_floor(0.5)};
+    const DepthImage depth_m = match_backgrounds(views).value().at(0);
+    int plain = 0, on_floor = 0;
+    for (int y = 92; y < matched_size.height; ++y)
+        for (int x = 85; x < 140; ++x) {
+            ++plain;
+            if (std::abs(depth_m(y, x) * (y - 60) / (150 * 1.5) - 1) < 0.005) ++on_floor;
+        }
+    EXPECT_GT(on_floor, 0.9 * plain);
+}
+
 TEST(BackgroundStereo, IgnoresUnknownPixels) {
     std::vector<BackgroundView> views{background_with_pole(0), background_with_pole(-0.4),
                                       background_with_pole(0.4)};
