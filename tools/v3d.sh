@@ -99,12 +99,12 @@ run_all() {
   cp "$cache/built" "$runs/mesa_version"
   for version in 71 42; do
     for shape in 640x400,64,fast,nv12 640x400,64,balanced,nv12 640x400,64,quality,nv12 640x400,64,fast,yuyv \
-      960x720,64,balanced,nv12 1280x800,128,fast,nv12 1280x800,128,balanced,nv12; do
-      IFS=, read -r size disparities preset format <<<"$shape"
-      name=v${version}_${size}_${preset}_$format
-      echo "v3d.sh: V3D $version, $preset, $size, $disparities disparities" >&2
+      960x720,64,balanced,nv12 960x720,64,balanced,nv12,640 1280x800,128,fast,nv12 1280x800,128,balanced,nv12; do
+      IFS=, read -r size disparities preset format match_width <<<"$shape"
+      name=v${version}_${size}_${preset}_$format${match_width:+_to_$match_width}
+      echo "v3d.sh: V3D $version, $preset, $size${match_width:+ reduced to a width of $match_width}, $disparities disparities" >&2
       on_v3d "$version" nice "$bin/rig_frame" --size "$size" --disparities "$disparities" --preset "$preset" \
-        --format "$format" \
+        --format "$format" ${match_width:+--match-width "$match_width"} \
         >"$runs/$name.json" 2>"$runs/$name.err" || {
         grep -v -E '^(0x|TRACE|SHADER-DB|MESA_SHADER)' "$runs/$name.err" | tail -n 5 >&2
         echo "v3d.sh: rig_frame failed on the pretended V3D $version; its output is $runs/$name.err" >&2

@@ -17,7 +17,7 @@ CHIPS = {
     '42': dict(name='Raspberry Pi 4 (V3D 4.2)', qpus=8, hz=500e6, bytes_per_s=2.5e9),
     '71': dict(name='Raspberry Pi 5 (V3D 7.1)', qpus=12, hz=960e6, bytes_per_s=4.0e9),
 }
-LIMITS = dict(spills=16, compile_ms=5000, threads=2, growth=1.03, dispatch_ms=100)
+LIMITS = dict(spills=0, compile_ms=5000, threads=2, growth=1.03, dispatch_ms=100)
 LANES, CYCLES_PER_BATCH = 16, 4  # a QPU issues an instruction for 16 lanes in 4 cycles
 
 INSTRUCTION = re.compile(r'^0x[0-9a-f]{16} (.*)$')
@@ -117,6 +117,10 @@ def work(program, shape, groups):
     along = defines.get('ALONG') == '1'
     steps = int(defines.get('STEPS', 16))
     slabs = int(defines.get('SLABS', 1))
+    if file == 'rectify.frag':
+        return up(shape['colour'], LANES), []
+    if file == 'picture_reduce.frag':
+        return up(W * H, LANES), [int(defines.get('TAPS', 1))] * (2 if int(defines.get('TAPS', 1)) > 1 else 0)
     if file.endswith('.frag'):
         return up(W * H, LANES), []
     table = {
@@ -202,7 +206,7 @@ def waits(code):
 
 
 PASS = {
-    'camera_picture': 'camera', 'rectify': 'rectify', 'stereo_luma': 'luma', 'exposure_gain': 'luma', 'stereo_features': 'census and gradient',
+    'camera_picture': 'camera', 'rectify': 'rectify', 'picture_reduce': 'reduce', 'stereo_luma': 'luma', 'exposure_gain': 'luma', 'stereo_features': 'census and gradient',
     'stereo_clear': 'row shift', 'row_shift_votes': 'row shift', 'stereo_halve': 'halve', 'stereo_median_luma': 'guide',
     'stereo_permeability': 'permeability', 'stereo_halved_cost': 'cost', 'stereo_halved_cost_narrow': 'cost', 'perm_cost': 'cost',
     'sgm_cost': 'cost', 'perm_weight': 'weights', 'perm_rows': 'cost and rows', 'perm_columns': 'columns and winners',
@@ -230,7 +234,8 @@ def model(name, runs_folder):
     half_width = facts['matcher'] == 'coarse'
     half_height = half_width or facts['matcher'] == 'row_pairs'
     W, H = facts['width_px'], facts['height_px']
-    shape = dict(W=W, H=H, D=facts['disparities'], w=up(W, 2) if half_width else W, h=up(H, 2) if half_height else H)
+    shape = dict(W=W, H=H, D=facts['disparities'], w=up(W, 2) if half_width else W, h=up(H, 2) if half_height else H,
+                 colour=facts['colour_width_px'] * facts['colour_height_px'])
     frames = len({frame for frame, _, _ in runs})
     moved = {p['name']: p['bytes_moved'] for p in facts['passes']}
     rows, passes, longest_ms = {}, {}, 0.0
@@ -271,7 +276,8 @@ def model(name, runs_folder):
 def title(m):
     f = m['facts']
     of_yuyv = ', YUYV' if f.get('format') == 'YUYV' else ''
-    return f"{f['preset']} ({f['matcher']}) {f['width_px']}x{f['height_px']}x{f['disparities']}{of_yuyv}"
+    of_larger = f" of {f['colour_width_px']}x{f['colour_height_px']}" if f['colour_width_px'] != f['width_px'] else ''
+    return f"{f['preset']} ({f['matcher']}) {f['width_px']}x{f['height_px']}x{f['disparities']}{of_larger}{of_yuyv}"
 
 
 def document(models, mesa):
@@ -280,7 +286,8 @@ def document(models, mesa):
            '[Hardware](../build/hardware.md#which-preset) says which preset to choose.', '',
            '```text', 'tools/v3d.sh', '```', '',
            f'The command writes this page. It runs the GPU work of a rig\'s frame on Mesa {mesa}\'s V3D driver and a pretended GPU.',
-           'The work is rectification of NV12 or YUYV, matching of a stream, and the temporal filter. Programs are compiled for the real instruction set.',
+           'The work is rectification of NV12 or YUYV, matching of a stream, and the temporal filter. Where a row says *of 960x720*, rectified pictures of that size',
+           'are reduced before they are matched. Programs are compiled for the real instruction set.',
            'Nothing executes, and no number here was measured on a Raspberry Pi.', '',
            '**Every time is a lower bound.** A pass takes at least the longer of two times. One is the time to issue the instructions that the',
            'compiler emitted, with the loops\' real trip counts, on the QPUs that the pass fills. The other is the time to move the bytes that',
@@ -323,7 +330,7 @@ def faults(models, previous):
             p = row['program']
             what = f'{where}: {p.file} {p.label()}'.rstrip()
             if p.spills > LIMITS['spills']:
-                yield f"{what} spills {p.spills} registers, more than {LIMITS['spills']}: give a lane less to hold"
+                yield f"{what} spills {p.spills} registers: give a lane less to hold"
             if row['compile_ms'] > LIMITS['compile_ms']:
                 yield f"{what} takes {row['compile_ms'] / 1e3:.1f} s to compile, more than {LIMITS['compile_ms'] / 1e3:.0f} s: unroll less"
             if p.threads < LIMITS['threads']:

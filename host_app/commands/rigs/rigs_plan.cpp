@@ -166,16 +166,38 @@ void print(const std::vector<RigWeight>& weights, const LinkBudget& budget, doub
                                  words_of(proposal, rate_hz), proposal.host_mbit_s);
 }
 
-/// Which preset a Raspberry Pi could match the rigs' pictures with, once for each size.
-void print_gpu_fits(const std::vector<std::shared_ptr<const RigFrame>>& latest, double rate_hz) {
-    std::set<std::array<int, 3>> shapes;
-    for (const auto& frame : latest)
-        if (frame && frame->max_disparity_px > 0)
-            shapes.insert({frame->geometry.width_px, frame->geometry.height_px,
-                           static_cast<int>(frame->max_disparity_px)});
-    for (const auto& [width_px, height_px, disparities] : shapes)
+/// Returns the different kinds of frames that the rigs match.
+std::vector<MatchedFrame> matched_frames(const std::vector<std::shared_ptr<const RigFrame>>& latest,
+                                         double rate_hz) {
+    std::set<std::array<int, 5>> shapes;
+    for (const auto& frame : latest) {
+        if (!frame || frame->max_disparity_px <= 0) continue;
+        const cv::Size colour(frame->geometry.width_px, frame->geometry.height_px);
+        const cv::Size matched = frame->disparity.empty() ? colour : frame->disparity.size();
+        const cv::Size reduced = matched == colour ? cv::Size() : colour;
+        shapes.insert({matched.width, matched.height, static_cast<int>(frame->max_disparity_px),
+                       reduced.width, reduced.height});
+    }
+    std::vector<MatchedFrame> frames;
+    for (const auto& [width_px, height_px, disparities, colour_width_px, colour_height_px] : shapes)
+        frames.push_back(
+            {width_px, height_px, disparities, rate_hz, colour_width_px, colour_height_px});
+    return frames;
+}
+
+/// Which preset a Raspberry Pi could match the rigs' pictures with.
+void print_gpu_fits(const std::vector<MatchedFrame>& frames) {
+    for (const MatchedFrame& frame : frames)
         for (const GpuFrameModel& model : GpuFrameModel::all())
-            std::cout << model.fit_text(width_px, height_px, disparities, rate_hz) << "\n";
+            std::cout << model.fit_text(frame) << "\n";
+}
+
+nlohmann::ordered_json gpu_fits_as_json(const std::vector<MatchedFrame>& frames) {
+    auto fits = nlohmann::ordered_json::array();
+    for (const MatchedFrame& frame : frames)
+        for (const GpuFrameModel& model : GpuFrameModel::all())
+            fits.push_back(model.fit_json(frame));
+    return fits;
 }
 
 nlohmann::ordered_json to_json(const std::vector<RigWeight>& weights, const LinkBudget& budget,
@@ -213,11 +235,15 @@ void plan(const PlanOptions& options) {
             if (latest[i]) weigh(*latest[i], weights[i]);
         budget = plan_links(weights, rate_hz, options.limits);
     }
-    if (options.json)
-        std::cout << to_json(weights, budget, rate_hz).dump() << '\n';
-    else
+    const std::vector<MatchedFrame> frames = matched_frames(latest, rate_hz);
+    if (options.json) {
+        nlohmann::ordered_json json = to_json(weights, budget, rate_hz);
+        json["gpu_fits"] = gpu_fits_as_json(frames);
+        std::cout << json.dump() << '\n';
+    } else {
         print(weights, budget, rate_hz);
-    if (!options.json) print_gpu_fits(latest, rate_hz);
+        print_gpu_fits(frames);
+    }
     if (budget.fits()) return;
     std::string full;
     for (const LinkBudget::Rig& rig : budget.rigs)

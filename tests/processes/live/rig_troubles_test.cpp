@@ -234,6 +234,11 @@ TEST_F(RigTroubles, OfASlowNetworkAreReportedByThePlan) {
                         (rig["colour_bytes"].get<double>() + rig["other_bytes"].get<double>()),
                     0.01);
     }
+    ASSERT_FALSE(plan["gpu_fits"].empty()) << plan;
+    for (const nlohmann::json& fit : plan["gpu_fits"]) {
+        EXPECT_EQ(fit["rate_hz"], 5);
+        EXPECT_GT(fit["lower_bounds_ms"]["quality"], fit["lower_bounds_ms"]["fast"]);
+    }
     std::vector<std::string> narrow = arguments;
     narrow.insert(narrow.end(), {"--rate", "1000", "--host-link", "100"});
     const ProgramResult refused = run_to_end(VANTAGE_PROGRAM, narrow);
