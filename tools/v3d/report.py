@@ -273,6 +273,47 @@ def model(name, runs_folder):
                 compile_ms=sum(r['compile_ms'] for r in rows.values()))
 
 
+MALI_SHADER_DB = re.compile(r'^SHADER-DB: MESA_SHADER_(\w+) shader: (\d+) inst, .*, (\d+) threads, (\d+) loops, (\d+):(\d+) spills:fills')
+
+
+def mali_programs(runs_folder):
+    """Of a Mali-G610: programs by file and definitions, in the order of their compilation, with the presets that use each."""
+    found = {}
+    for path in sorted(runs_folder.glob('g610_*.err'), key=lambda path: ('fast', 'balanced', 'quality').index(path.stem[5:])):
+        compiled, current, by_number = [], None, {}
+        for line in path.read_text(errors='replace').splitlines():
+            words = line.split()
+            match = MALI_SHADER_DB.match(line)
+            if match:
+                # A drawing's vertex stages come first.
+                if match.group(1) in ('FRAGMENT', 'COMPUTE'):
+                    compiled.append(list(map(int, match.groups()[1:])))
+            elif line.startswith('TRACE link'):
+                current = int(words[2])
+                by_number[current] = Program(words[3], dict(w.split('=', 1) for w in words[4:]))
+            elif line.startswith('TRACE cpu') and compiled:
+                # Compiled within a link, or within a run where the driver needs a variant.
+                program = by_number[int(words[2])]
+                row = found.setdefault((program.file, program.label()), dict(facts=compiled[-1], compile_ms=float(words[3]), presets=[]))
+                if path.stem[5:] not in row['presets']:
+                    row['presets'].append(path.stem[5:])
+                compiled = []
+    return found
+
+
+def mali_section(programs):
+    out = ['## Mali-G610 (RK3588)', '',
+           'Panfrost, the driver of the Mali-G610 in an RK3588, compiles the same programs on a pretended device. Its invocations lie along pixels, as on a',
+           'desktop\'s GPU. The table has no times: the driver prints the instructions of a program, and not what its loops make of them.',
+           '*Threads* is 2 where a core keeps all of its threads, and 1 where the program\'s registers halve them. The search is 640x400 with 64 disparities.', '',
+           '| program | definitions | presets | instructions | threads | spills:fills | loops | compile, ms |',
+           '| --- | --- | --- | --- | --- | --- | --- | --- |']
+    for (file, label), row in programs.items():
+        count, threads, loop_count, spills, fills = row['facts']
+        out.append(f"| {file} | {label} | {', '.join(row['presets'])} | {count} | {threads} | {spills}:{fills} | {loop_count} | {row['compile_ms']:.0f} |")
+    return out + ['']
+
+
 def title(m):
     f = m['facts']
     of_yuyv = ', YUYV' if f.get('format') == 'YUYV' else ''
@@ -280,7 +321,7 @@ def title(m):
     return f"{f['preset']} ({f['matcher']}) {f['width_px']}x{f['height_px']}x{f['disparities']}{of_larger}{of_yuyv}"
 
 
-def document(models, mesa):
+def document(models, mali, mesa):
     out = ['# Raspberry Pi\'s GPU', '',
            'This page says how much GPU time a rig\'s frame takes at least on a Raspberry Pi 5 and 4, for each preset and size.',
            '[Hardware](../build/hardware.md#which-preset) says which preset to choose.', '',
@@ -314,7 +355,7 @@ def document(models, mesa):
         for name, cost in m['passes'].items():
             out.append(f"| {name} | {cost['issue_ms']:.2f} | {cost['bytes'] / 1e6:.1f} | {cost['memory_ms']:.2f} | {cost['bound_ms']:.2f} |")
         out.append('')
-    return '\n'.join(out)
+    return '\n'.join(out + mali_section(mali))
 
 
 def faults(models, previous):
@@ -354,7 +395,7 @@ def main():
     (folder / 'models.json').write_text(json.dumps(
         [dict(name=m['name'], bound_ms=m['bound_ms'], passes=m['passes']) for m in models], indent=1))
     if '--check' not in sys.argv:
-        page.write_text(document(models, mesa))
+        page.write_text(document(models, mali_programs(folder), mesa))
         for m in models:
             print(f"{m['chip']['name']}, {title(m)}: {m['bound_ms']:.1f} ms at least")
     found = list(faults(models, page.read_text()))
