@@ -17,7 +17,7 @@ CHIPS = {
     '42': dict(name='Raspberry Pi 4 (V3D 4.2)', qpus=8, hz=500e6, bytes_per_s=2.5e9),
     '71': dict(name='Raspberry Pi 5 (V3D 7.1)', qpus=12, hz=960e6, bytes_per_s=4.0e9),
 }
-LIMITS = dict(spills=0, compile_ms=5000, threads=2, growth=1.03, dispatch_ms=100)
+LIMITS = dict(spills=0, mali_spills=4, compile_ms=5000, threads=2, growth=1.03, dispatch_ms=100)
 LANES, CYCLES_PER_BATCH = 16, 4  # a QPU issues an instruction for 16 lanes in 4 cycles
 
 INSTRUCTION = re.compile(r'^0x[0-9a-f]{16} (.*)$')
@@ -303,8 +303,8 @@ def mali_programs(runs_folder):
 
 def mali_section(programs):
     out = ['## Mali-G610 (RK3588)', '',
-           'Panfrost, the driver of the Mali-G610 in an RK3588, compiles the same programs on a pretended device. Its invocations lie along pixels, as on a',
-           'desktop\'s GPU. The table has no times: the driver prints the instructions of a program, and not what its loops make of them.',
+           'Panfrost, the driver of the Mali-G610 in an RK3588, compiles the same programs on a pretended device. Invocations lie along disparities, as on',
+           'V3D. The table has no times: the driver prints the instructions of a program, and not what its loops make of them.',
            '*Threads* is 2 where a core keeps all of its threads, and 1 where the program\'s registers halve them. The search is 640x400 with 64 disparities.', '',
            '| program | definitions | presets | instructions | threads | spills:fills | loops | compile, ms |',
            '| --- | --- | --- | --- | --- | --- | --- | --- |']
@@ -323,7 +323,8 @@ def title(m):
 
 def document(models, mali, mesa):
     out = ['# Raspberry Pi\'s GPU', '',
-           'This page says how much GPU time a rig\'s frame takes at least on a Raspberry Pi 5 and 4, for each preset and size.',
+           'This page says how much GPU time a rig\'s frame takes at least on a Raspberry Pi 5 and 4, for each preset and size. Its end has what the',
+           'compiler of another board\'s GPU makes of the programs.',
            '[Hardware](../build/hardware.md#which-preset) says which preset to choose.', '',
            '```text', 'tools/v3d.sh', '```', '',
            f'The command writes this page. It runs the GPU work of a rig\'s frame on Mesa {mesa}\'s V3D driver and a pretended GPU.',
@@ -358,13 +359,19 @@ def document(models, mali, mesa):
     return '\n'.join(out + mali_section(mali))
 
 
-def faults(models, previous):
+def faults(models, mali, previous):
     """Sentences about what exceeds a limit."""
     known = {}
     for line in previous.splitlines():
         cells = [c.strip() for c in line.split('|')[1:-1]]
         if len(cells) == 8 and re.fullmatch(r'[0-9.]+', cells[2]):
             known[cells[0], cells[1]] = float(cells[2])
+    for (file, label), row in mali.items():
+        what = f'Mali-G610: {file} {label}'.rstrip()
+        if row['facts'][3] > LIMITS['mali_spills']:
+            yield f"{what} spills {row['facts'][3]} registers, more than {LIMITS['mali_spills']}: give a lane less to hold"
+        if row['compile_ms'] > LIMITS['compile_ms']:
+            yield f"{what} takes {row['compile_ms'] / 1e3:.1f} s to compile, more than {LIMITS['compile_ms'] / 1e3:.0f} s: unroll less"
     for m in models:
         where = f"{m['chip']['name']}, {title(m)}"
         for row in m['rows'].values():
@@ -394,11 +401,12 @@ def main():
     models.sort(key=lambda m: (-m['chip']['qpus'], m['facts']['width_px'], order[m['facts']['preset']], m['name']))
     (folder / 'models.json').write_text(json.dumps(
         [dict(name=m['name'], bound_ms=m['bound_ms'], passes=m['passes']) for m in models], indent=1))
+    mali = mali_programs(folder)
     if '--check' not in sys.argv:
-        page.write_text(document(models, mali_programs(folder), mesa))
+        page.write_text(document(models, mali, mesa))
         for m in models:
             print(f"{m['chip']['name']}, {title(m)}: {m['bound_ms']:.1f} ms at least")
-    found = list(faults(models, page.read_text()))
+    found = list(faults(models, mali, page.read_text()))
     for sentence in found:
         print(sentence, file=sys.stderr)
     sys.exit(1 if found else 0)
