@@ -119,8 +119,6 @@ def work(program, shape, groups):
     slabs = int(defines.get('SLABS', 1))
     if file == 'rectify.frag':
         return up(shape['colour'], LANES), []
-    if file == 'picture_reduce.frag':
-        return up(W * H, LANES), [int(defines.get('TAPS', 1))] * (2 if int(defines.get('TAPS', 1)) > 1 else 0)
     if file.endswith('.frag'):
         return up(W * H, LANES), []
     table = {
