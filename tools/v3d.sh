@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Compiles the shaders of a rig's frame with the compiler of a Raspberry Pi's GPU, without a Raspberry Pi: Mesa's V3D driver on
-# a pretended device (drm-shim) compiles every program that tests/bench/rig_frame runs, and executes nothing.
+# a pretended device (drm-shim) compiles every program that tests/bench/rig_frame runs, and executes nothing. Mesa's Panfrost
+# does the same for a Mali-G610 (RK3588).
 #   tools/v3d.sh             builds Mesa where it is not built yet, and writes docs/results/v3d.md
 #   tools/v3d.sh --check     compares with that page and its limits in place of writing it
 #   tools/v3d.sh build       builds Mesa only (some ten minutes)
-#   tools/v3d.sh run VERSION PROGRAM...    runs PROGRAM on the pretended GPU; VERSION 42 (Pi 4) or 71 (Pi 5)
+#   tools/v3d.sh run VERSION PROGRAM...    runs PROGRAM on the pretended GPU; VERSION 42 (Pi 4), 71 (Pi 5) or g610 (RK3588)
 # Mesa's source is Debian's, and lies with what is built of it in $XDG_CACHE_HOME/vantage/v3d (by default ~/.cache). Says
 # SKIPPED, and succeeds, where apt has no source of Mesa or this is no amd64. Without root.
 set -euo pipefail
@@ -13,6 +14,7 @@ root=$PWD
 cache=${XDG_CACHE_HOME:-$HOME/.cache}/vantage/v3d
 bin=$root/build/release/bin
 mesa_version=25.0.7
+drivers=v3d,panfrost
 
 skip() {
   echo "v3d.sh: SKIPPED, $1" >&2
@@ -61,7 +63,8 @@ build_mesa() {
   [ "$(dpkg --print-architecture)" = amd64 ] || skip "Mesa is compiled here for amd64 only"
   mkdir -p "$cache"
   cd "$cache"
-  if [ ! -e built ]; then
+  if [ "$(cat built 2>/dev/null)" != "$mesa_version $drivers" ]; then
+    rm -rf built build
     prepare_apt
     [ -d tools ] || fetch_tools
     [ -d mesa ] || fetch_mesa
@@ -69,48 +72,63 @@ build_mesa() {
       export PATH=$cache/tools/usr/bin:$PATH M4=$cache/tools/usr/bin/m4
       export PYTHONPATH=$cache/tools/usr/lib/python3/dist-packages:$cache/tools/usr/share/meson
       export BISON_PKGDATADIR=$cache/tools/usr/share/bison PKG_CONFIG_PATH=$cache/tools/usr/lib/x86_64-linux-gnu/pkgconfig
-      [ -f build/build.ninja ] || nice meson setup build mesa -Dbuildtype=release -Db_ndebug=true -Dgallium-drivers=v3d \
+      [ -f build/build.ninja ] || nice meson setup build mesa -Dbuildtype=release -Db_ndebug=true -Dgallium-drivers="$drivers" \
         -Dvulkan-drivers= -Dtools=drm-shim -Dllvm=disabled -Dglx=disabled -Dplatforms= -Degl=enabled -Dgles1=disabled \
         -Dgles2=enabled -Dopengl=true -Dgbm=enabled -Dglvnd=disabled -Dgallium-va=disabled -Dgallium-vdpau=disabled \
         -Dshader-cache=enabled -Dzstd=disabled -Dvideo-codecs= -Dbuild-tests=false -Dlmsensors=disabled -Dlibunwind=disabled \
         -Dvalgrind=disabled
       nice ninja -C build
     )
-    echo "$mesa_version" >built
+    echo "$mesa_version $drivers" >built
   fi
   gcc -O1 -shared -fPIC -o libgl_trace.so "$root/tools/v3d/gl_trace.c" -ldl
   cd "$root"
 }
 
-# on_v3d VERSION PROGRAM...: the environment in which PROGRAM finds the pretended GPU.
-on_v3d() {
-  local version=$1 mesa=$cache/build
+# on_gpu VERSION PROGRAM...: the environment in which PROGRAM finds the pretended GPU, whose compiler prints what it makes.
+on_gpu() {
+  local version=$1 mesa=$cache/build shim
+  local gpu=("V3D_SHIM=$version" MESA_LOADER_DRIVER_OVERRIDE=v3d V3D_DEBUG=shaderdb,qpu)
   shift
-  env V3D_SHIM="$version" MESA_LOADER_DRIVER_OVERRIDE=v3d MESA_SHADER_CACHE_DISABLE=true V3D_DEBUG=shaderdb,qpu \
+  shim=$mesa/src/broadcom/drm-shim/libv3d_noop_drm_shim.so
+  if [ "$version" = g610 ]; then
+    gpu=(PAN_GPU_ID=a867 MESA_LOADER_DRIVER_OVERRIDE=panthor BIFROST_MESA_DEBUG=shaderdb)
+    shim=$mesa/src/panfrost/drm-shim/libpanfrost_noop_drm_shim.so
+  fi
+  env "${gpu[@]}" MESA_SHADER_CACHE_DISABLE=true \
     LD_LIBRARY_PATH="$mesa/src/egl:$mesa/src/mapi/es2api:$mesa/src/gbm:$mesa/src/gallium/targets/dri:$cache/tools/usr/lib/x86_64-linux-gnu" \
     GBM_BACKENDS_PATH="$mesa/src/gbm/backends/dri" LIBGL_DRIVERS_PATH="$mesa/src/gallium/targets/dri" \
-    LD_PRELOAD="$mesa/src/broadcom/drm-shim/libv3d_noop_drm_shim.so:$cache/libgl_trace.so" "$@"
+    LD_PRELOAD="$shim:$cache/libgl_trace.so" "$@"
+}
+
+# run_frame VERSION NAME OPTION...: a rig's frame, whose facts and compiler's lines get into the folder of runs.
+run_frame() {
+  local version=$1 name=$2
+  shift 2
+  echo "v3d.sh: $version, $*" >&2
+  on_gpu "$version" nice "$bin/rig_frame" "$@" >"$runs/$name.json" 2>"$runs/$name.err" || {
+    grep -v -E '^(0x|TRACE|SHADER-DB|MESA_SHADER)' "$runs/$name.err" | tail -n 5 >&2
+    echo "v3d.sh: rig_frame failed on the pretended $version; its output is $runs/$name.err" >&2
+    exit 1
+  }
 }
 
 run_all() {
-  local runs=$cache/runs version shape preset name
+  local version shape size disparities preset format match_width
+  runs=$cache/runs
   rm -rf "$runs"
   mkdir -p "$runs"
-  cp "$cache/built" "$runs/mesa_version"
+  echo "$mesa_version" >"$runs/mesa_version"
   for version in 71 42; do
     for shape in 640x400,64,fast,nv12 640x400,64,balanced,nv12 640x400,64,quality,nv12 640x400,64,fast,yuyv \
-      960x720,64,balanced,nv12 1280x800,128,fast,nv12 1280x800,128,balanced,nv12; do
-      IFS=, read -r size disparities preset format <<<"$shape"
-      name=v${version}_${size}_${preset}_$format
-      echo "v3d.sh: V3D $version, $preset, $size, $disparities disparities" >&2
-      on_v3d "$version" nice "$bin/rig_frame" --size "$size" --disparities "$disparities" --preset "$preset" \
-        --format "$format" \
-        >"$runs/$name.json" 2>"$runs/$name.err" || {
-        grep -v -E '^(0x|TRACE|SHADER-DB|MESA_SHADER)' "$runs/$name.err" | tail -n 5 >&2
-        echo "v3d.sh: rig_frame failed on the pretended V3D $version; its output is $runs/$name.err" >&2
-        exit 1
-      }
+      960x720,64,balanced,nv12 960x720,64,balanced,nv12,640 1280x800,128,fast,nv12 1280x800,128,balanced,nv12; do
+      IFS=, read -r size disparities preset format match_width <<<"$shape"
+      run_frame "$version" "v${version}_${size}_${preset}_$format${match_width:+_to_$match_width}" --size "$size" \
+        --disparities "$disparities" --preset "$preset" --format "$format" ${match_width:+--match-width "$match_width"}
     done
+  done
+  for preset in fast balanced quality; do
+    run_frame g610 "g610_$preset" --size 640x400 --disparities 64 --preset "$preset" --frames 2
   done
 }
 
@@ -119,7 +137,7 @@ case "${1-}" in
   run)
     shift
     build_mesa
-    on_v3d "$@"
+    on_gpu "$@"
     ;;
   '' | --check)
     [ -x "$bin/rig_frame" ] || {
@@ -131,7 +149,7 @@ case "${1-}" in
     python3 tools/v3d/report.py "$cache/runs" docs/results/v3d.md ${1+"$1"}
     ;;
   *)
-    sed -n '4,7s/^# \{0,1\}//p' "$0" >&2
+    sed -n '5,8s/^# \{0,1\}//p' "$0" >&2
     exit 2
     ;;
 esac

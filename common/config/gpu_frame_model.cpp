@@ -1,19 +1,26 @@
 #include "common/config/gpu_frame_model.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace vantage {
 namespace {
 
 /// From docs/results/v3d.md: the bounds at 640x400x64, of which the passes over the cost volume
-/// grow with the disparities.
+/// grow with the disparities. The reduction is that of 960x720 to 640x480.
 constexpr GpuFrameModel models[] = {
     {"Raspberry Pi 5",
      "V3D 7.1",
-     {{"quality", 50.1, 2.190}, {"balanced", 35.2, 0.713}, {"fast", 28.6, 0.523}}},
+     5.5,
+     2.0,
+     {{{"quality", 44.6, 2.190}, {"balanced", 29.7, 0.713}, {"fast", 23.0, 0.523}}}},
     {"Raspberry Pi 4",
      "V3D 4.2",
-     {{"quality", 113.5, 5.079}, {"balanced", 85.7, 1.854}, {"fast", 75.2, 1.231}}},
+     16.6,
+     3.2,
+     {{{"quality", 96.9, 5.079}, {"balanced", 69.0, 1.854}, {"fast", 58.6, 1.176}}}},
 };
 
 }  // namespace
@@ -26,31 +33,58 @@ const GpuFrameModel* GpuFrameModel::of(std::string_view renderer) {
     return nullptr;
 }
 
-double GpuFrameModel::frame_ms(const Preset& preset, int width_px, int height_px, int disparities) {
-    const double pixels = static_cast<double>(width_px) * height_px;
-    return pixels * (preset.ns_per_pixel + preset.ns_per_pixel_disparity * disparities) * 1e-6;
+double GpuFrameModel::frame_ms(const Preset& preset, const MatchedFrame& frame) const {
+    const double matched = static_cast<double>(frame.width_px) * frame.height_px;
+    const double colour = static_cast<double>(frame.colour_width_px) * frame.colour_height_px;
+    double ns = matched * (preset.ns_per_pixel + preset.ns_per_pixel_disparity * frame.disparities);
+    ns += std::max(matched, colour) * ns_per_rectified_pixel;
+    if (colour > 0) ns += (matched + colour) * ns_per_reduced_pixel;
+    return ns * 1e-6;
 }
 
-const GpuFrameModel::Preset* GpuFrameModel::best_for(int width_px, int height_px, int disparities,
-                                                     double rate_hz) const {
-    const double limit_ms = 1e3 / rate_hz * 2 / 3;
-    for (const Preset& preset : presets)
-        if (frame_ms(preset, width_px, height_px, disparities) <= limit_ms) return &preset;
-    return nullptr;
+GpuFrameModel::Fit GpuFrameModel::fit(const MatchedFrame& frame) const {
+    const double limit_ms = 1e3 / frame.rate_hz * 2 / 3;
+    Fit fit{};
+    for (std::size_t i = 0; i < presets.size(); ++i) {
+        fit.bounds_ms[i] = frame_ms(presets[i], frame);
+        if (!fit.best && fit.bounds_ms[i] <= limit_ms) fit.best = &presets[i];
+    }
+    return fit;
 }
 
-std::string GpuFrameModel::fit_text(int width_px, int height_px, int disparities,
-                                    double rate_hz) const {
+std::string GpuFrameModel::fit_text(const MatchedFrame& frame) const {
+    const Fit found = fit(frame);
     std::string bounds;
-    for (const Preset& preset : presets)
-        bounds += fmt::format("{}{} {:.1f}", bounds.empty() ? "" : ", ", preset.name,
-                              frame_ms(preset, width_px, height_px, disparities));
-    const Preset* best = best_for(width_px, height_px, disparities, rate_hz);
+    for (std::size_t i = 0; i < presets.size(); ++i)
+        bounds +=
+            fmt::format("{}{} {:.1f}", i == 0 ? "" : ", ", presets[i].name, found.bounds_ms[i]);
+    const std::string reduced =
+        frame.colour_width_px > 0
+            ? fmt::format(", reduced from {}x{}", frame.colour_width_px, frame.colour_height_px)
+            : "";
     return fmt::format(
-        "{}x{} with {} disparities at {:.4g} Hz on the {}: {} (lower bounds of a frame by the "
+        "{}x{}{} with {} disparities at {:.4g} Hz on the {}: {} (lower bounds of a frame by the "
         "compiler's numbers, ms: {})",
-        width_px, height_px, disparities, rate_hz, board,
-        best ? fmt::format("'{}' may fit", best->name) : "no preset fits", bounds);
+        frame.width_px, frame.height_px, reduced, frame.disparities, frame.rate_hz, board,
+        found.best ? fmt::format("'{}' may fit", found.best->name) : "no preset fits", bounds);
+}
+
+nlohmann::ordered_json GpuFrameModel::fit_json(const MatchedFrame& frame) const {
+    const Fit found = fit(frame);
+    nlohmann::ordered_json bounds;
+    for (std::size_t i = 0; i < presets.size(); ++i) bounds[presets[i].name] = found.bounds_ms[i];
+    nlohmann::ordered_json json{{"board", board},
+                                {"width_px", frame.width_px},
+                                {"height_px", frame.height_px},
+                                {"disparities", frame.disparities},
+                                {"rate_hz", frame.rate_hz}};
+    if (frame.colour_width_px > 0) {
+        json["colour_width_px"] = frame.colour_width_px;
+        json["colour_height_px"] = frame.colour_height_px;
+    }
+    json["preset"] = found.best ? nlohmann::ordered_json(found.best->name) : nullptr;
+    json["lower_bounds_ms"] = std::move(bounds);
+    return json;
 }
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "common/image/colour_map.h"
 #include "common/image/disparity_file.h"
 #include "common/image/image_file.h"
+#include "rig_firmware/stereo/features/reduce_pass.h"
 #include "rig_firmware/stereo/matcher.h"
 #include "rig_firmware/stereo/pi_model.h"
 
@@ -32,9 +34,53 @@ std::string row(const PassReport& pass) {
                        pass.operations * 1e-6);
 }
 
-/// The passes of a matcher's last match() as a table for people: runs, time, traffic, operations,
-/// their sums, and what a Raspberry Pi would take by a model.
-std::string pass_table(const Matcher& matcher) {
+/// A matcher, and before it a reduction of the pictures if less than they have is to be matched, as
+/// the daemon does it for 'width_px'.
+class PairMatcher {
+  public:
+    PairMatcher(const std::string& name, const ShaderLibrary& library, cv::Size picture,
+                const MatchSettings& settings)
+        : matcher_(make_matcher(name, library, settings)) {
+        const cv::Size matched(settings.width_px, settings.height_px);
+        if (matched == picture) return;
+        reduce_left_.emplace(library, picture, matched);
+        reduce_right_.emplace(library, picture, matched);
+    }
+
+    const Texture& match(const Texture& left, const Texture& right) {
+        if (!reduce_left_) return matcher_->match(left, right);
+        profiler_.begin_frame();
+        for (ReducePass* reduce : {&*reduce_left_, &*reduce_right_})
+            profiler_.run("reduce", reduce->cost(),
+                          [&] { reduce->reduce(reduce == &*reduce_left_ ? left : right); });
+        profiler_.end_frame();
+        return matcher_->match(reduce_left_->reduced(), reduce_right_->reduced());
+    }
+    void set_profiling(bool on) {
+        profiler_.set_enabled(on);
+        matcher_->set_profiling(on);
+    }
+    std::vector<PassReport> passes() const {
+        std::vector<PassReport> passes = profiler_.reports();
+        const std::vector<PassReport> more = matcher_->passes();
+        passes.insert(passes.end(), more.begin(), more.end());
+        return passes;
+    }
+    const Texture* confidence() const { return matcher_->confidence(); }
+    std::size_t gpu_bytes() const {
+        return matcher_->gpu_bytes() + (reduce_left_ ? 2 * reduce_left_->gpu_bytes() : 0);
+    }
+    std::size_t cost_volume_bytes() const { return matcher_->cost_volume_bytes(); }
+
+  private:
+    PassProfiler profiler_;
+    std::optional<ReducePass> reduce_left_, reduce_right_;
+    std::unique_ptr<Matcher> matcher_;
+};
+
+/// The passes of the last match() as a table for people: runs, time, traffic, operations, their
+/// sums, and what a Raspberry Pi would take by a model.
+std::string pass_table(const PairMatcher& matcher) {
     std::string table =
         fmt::format("{:<22}{:>6}{:>10}{:>10}{:>10}\n", "pass", "runs", "ms", "MB moved", "M ops");
     PassReport total{.name = "total"};
@@ -65,7 +111,7 @@ double median_px(const DisparityImage& disparity) {
 
 struct MatchOptions {
     std::string left, right, matcher, preset = "balanced", output, colour_map, confidence;
-    int disparities = 0, repeats = 5;
+    int disparities = 0, width_px = 0, repeats = 5;
     bool no_fill = false, explain = false, json = false;
 };
 
@@ -92,7 +138,7 @@ Texture upload(const ColourImage& picture) {
     return texture;
 }
 
-nlohmann::ordered_json passes_as_json(const Matcher& matcher) {
+nlohmann::ordered_json passes_as_json(const PairMatcher& matcher) {
     auto passes = nlohmann::ordered_json::array();
     for (const PassReport& pass : matcher.passes())
         passes.push_back({{"name", pass.name},
@@ -103,7 +149,7 @@ nlohmann::ordered_json passes_as_json(const Matcher& matcher) {
     return passes;
 }
 
-nlohmann::ordered_json modelled_frames_as_json(const Matcher& matcher) {
+nlohmann::ordered_json modelled_frames_as_json(const PairMatcher& matcher) {
     nlohmann::ordered_json frames;
     for (const PiModel& model : pi_models)
         frames[model.name] = modelled_frame_ms(model, matcher.passes());
@@ -119,8 +165,12 @@ void match(const MatchOptions& options) {
     if (left.size() != right.size())
         fail("{} is {}x{} and {} is {}x{}; the two pictures of a rectified pair have one size",
              options.left, left.cols, left.rows, options.right, right.cols, right.rows);
-    const MatchSettings settings{.width_px = left.cols,
-                                 .height_px = left.rows,
+    if (options.width_px > left.cols)
+        fail("--width {} is more than the pictures have, which are {} px wide", options.width_px,
+             left.cols);
+    const cv::Size matched = reduced_size(left.size(), options.width_px);
+    const MatchSettings settings{.width_px = matched.width,
+                                 .height_px = matched.height,
                                  .disparities = options.disparities,
                                  .preset = preset,
                                  .fill = !options.no_fill,
@@ -131,27 +181,27 @@ void match(const MatchOptions& options) {
     const GlInfo gl = GlInfo::query();
     gl.require_vantage_minimum();
     const ShaderLibrary shaders;
-    const std::unique_ptr<Matcher> matcher = make_matcher(matcher_name, shaders, settings);
-    if (settings.confidence && !matcher->confidence())
+    PairMatcher matcher(matcher_name, shaders, left.size(), settings);
+    if (settings.confidence && !matcher.confidence())
         fail("the matcher '{}' knows no confidence; leave out --confidence or take another matcher",
              matcher_name);
     const Texture left_texture = upload(left), right_texture = upload(right);
     // The first match only warms up the driver: some drivers compile shaders when they are first
     // used.
-    const DisparityImage disparity = matcher->match(left_texture, right_texture).download();
+    const DisparityImage disparity = matcher.match(left_texture, right_texture).download();
     const double gpu_ms =
-        median_gpu_ms(options.repeats, [&] { matcher->match(left_texture, right_texture); });
+        median_gpu_ms(options.repeats, [&] { matcher.match(left_texture, right_texture); });
 
     nlohmann::ordered_json result{
-        {"width", left.cols},
-        {"height", left.rows},
+        {"width", matched.width},
+        {"height", matched.height},
         {"disparities", options.disparities},
         {"matcher", matcher_name},
         {"preset", options.preset},
         {"gpu_ms", gpu_ms},
         {"renderer", gl.renderer},
         {"density",
-         static_cast<double>(cv::countNonZero(disparity)) / static_cast<double>(left.total())},
+         static_cast<double>(cv::countNonZero(disparity)) / static_cast<double>(matched.area())},
         {"median_disparity_px", median_px(disparity)},
         {"fill", settings.fill},
         {"output", options.output},
@@ -159,18 +209,18 @@ void match(const MatchOptions& options) {
          disparity_form(options.output) == DisparityForm::pfm ? 1.0 : 1.0 / disparity_steps_per_px},
     };
     const GreyImage confidence =
-        settings.confidence ? GreyImage(matcher->confidence()->download()) : GreyImage();
+        settings.confidence ? GreyImage(matcher.confidence()->download()) : GreyImage();
     if (settings.confidence) {
         result["confidence"] = options.confidence;
         result["mean_confidence"] = cv::mean(confidence)[0] / 255;
     }
     if (options.explain) {
-        matcher->set_profiling(true);
-        matcher->match(left_texture, right_texture);
-        result["passes"] = passes_as_json(*matcher);
-        result["gpu_bytes"] = matcher->gpu_bytes();
-        result["cost_volume_bytes"] = matcher->cost_volume_bytes();
-        result["modelled_frame_ms"] = modelled_frames_as_json(*matcher);
+        matcher.set_profiling(true);
+        matcher.match(left_texture, right_texture);
+        result["passes"] = passes_as_json(matcher);
+        result["gpu_bytes"] = matcher.gpu_bytes();
+        result["cost_volume_bytes"] = matcher.cost_volume_bytes();
+        result["modelled_frame_ms"] = modelled_frames_as_json(matcher);
     }
     write_disparity(options.output, disparity);
     if (!options.colour_map.empty())
@@ -179,7 +229,7 @@ void match(const MatchOptions& options) {
                                                 static_cast<float>(options.disparities)));
     if (settings.confidence) write_grey_image(options.confidence, confidence);
     print_result(result, options.json);
-    if (options.explain && !options.json) std::cout << '\n' << pass_table(*matcher);
+    if (options.explain && !options.json) std::cout << '\n' << pass_table(matcher);
 }
 
 std::string matcher_summaries() {
@@ -206,6 +256,13 @@ CommandEntry match_command_entry() {
                                      MatchSettings::max_disparities))
             ->type_name("N")
             ->required();
+        command
+            ->add_option(
+                "--width", options->width_px,
+                "Reduce both pictures to this width before they are matched, as 'width_px' "
+                "in [match] of rig.toml does; disparities count the smaller pixels")
+            ->check(CLI::Range(1, MatchSettings::max_side_px))
+            ->type_name("PX");
         command->add_option("--matcher", options->matcher,
                             "Select the matcher (default: the preset's); see below");
         command

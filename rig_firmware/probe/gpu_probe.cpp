@@ -57,16 +57,14 @@ void describe(ProbePart& part, const EglContext& context) {
             "the driver cannot import camera buffers (dma-buf): every picture is copied to the "
             "GPU");
     if (const GpuFrameModel* model = GpuFrameModel::of(info.renderer)) {
-        struct Shape {
-            int width_px, height_px, disparities;
-        };
-        constexpr Shape shapes[] = {{640, 400, 64}, {960, 720, 64}, {1280, 800, 128}};
         constexpr double rate_hz = 30;
-        for (const Shape& shape : shapes) {
-            const std::string text =
-                model->fit_text(shape.width_px, shape.height_px, shape.disparities, rate_hz);
-            part.lines.push_back(text);
-            part.facts["fits"].push_back(text);
+        constexpr MatchedFrame frames[] = {{640, 400, 64, rate_hz},
+                                           {640, 480, 64, rate_hz, 960, 720},
+                                           {960, 720, 64, rate_hz},
+                                           {1280, 800, 128, rate_hz}};
+        for (const MatchedFrame& frame : frames) {
+            part.lines.push_back(model->fit_text(frame));
+            part.facts["fits"].push_back(nlohmann::json(model->fit_json(frame)));
         }
     }
     try {

@@ -39,7 +39,7 @@ bool is_streak(int pixel, uint d, uint surface) {
 }
 
 #define JUDGE(c, k)                                                                                                  \
-    if (judged.c != 0u)                                                                                              \
+    if ((judged & (1u << k)) != 0u)                                                                                  \
         for (uint row = first_row.c; row <= last_row.c; ++row) {                                                     \
             int place = column + int(row) * step;                                                                    \
             if (is_streak(block_at(column * 4 + k, int(row), size.y), disparity[place].c & 0xffffu,                  \
@@ -59,7 +59,8 @@ void main() {
     int step = stride >> 2;
     // The runs that the walk is in, and what ended right above them.
     uvec4 above = uvec4(0u), bottom = uvec4(0u), first_row = uvec4(0u), last_row = uvec4(0u);
-    uvec4 here, known, begins, judged;
+    uvec4 here, known, begins;
+    uint judged;  // a bit for each of the four columns
     int y = 0, at = column;
     while (y < size.y) {
         // llvmpipe goes through what a condition leaves out, and jumps at the end of a loop only: in this one is
@@ -69,9 +70,10 @@ void main() {
             here *= uvec4(lessThan(ivec4(column * 4) + ivec4(0, 1, 2, 3), ivec4(size.x)));
             known = uvec4(notEqual(here, uvec4(0u)));
             begins = known * (1u - are_near(bottom, here));
-            judged =
+            uvec4 ends =
                 begins * are_near(above, here) * uvec4(lessThan(last_row - first_row, uvec4(uint(MOST_ROWS))));
-            if (judged != uvec4(0u)) break;
+            judged = ends.x | (ends.y << 1) | (ends.z << 2) | (ends.w << 3);
+            if (judged != 0u) break;
             GO_ON
         }
         JUDGE(x, 0) JUDGE(y, 1) JUDGE(z, 2) JUDGE(w, 3)

@@ -54,9 +54,13 @@ uvec4 next_four(int row_blocks, int at) {
     return is_lower ? uvec4(block.w, to_the_right.xyz) : to_the_right;
 }
 
-// Always true. A condition ends a block of code that the compiler puts into an order of its own, and so keeps the words of
-// later steps out of the registers.
+// With BOTH a condition that is always true. It ends a block of code that the compiler puts into an order of its own, and
+// so keeps the words of later steps out of the registers. Without BOTH they fit, and the condition would make them spill.
+#if BOTH
 #define IN_ORDER if (plane > 0)
+#else
+#define IN_ORDER
+#endif
 
 void main() {
     // A workgroup covers LANES rows of 4 * STEPS columns, one row after the other.

@@ -17,7 +17,7 @@ CHIPS = {
     '42': dict(name='Raspberry Pi 4 (V3D 4.2)', qpus=8, hz=500e6, bytes_per_s=2.5e9),
     '71': dict(name='Raspberry Pi 5 (V3D 7.1)', qpus=12, hz=960e6, bytes_per_s=4.0e9),
 }
-LIMITS = dict(spills=16, compile_ms=5000, threads=2, growth=1.03, dispatch_ms=100)
+LIMITS = dict(spills=0, mali_spills=4, compile_ms=5000, threads=2, growth=1.03, dispatch_ms=100)
 LANES, CYCLES_PER_BATCH = 16, 4  # a QPU issues an instruction for 16 lanes in 4 cycles
 
 INSTRUCTION = re.compile(r'^0x[0-9a-f]{16} (.*)$')
@@ -117,6 +117,8 @@ def work(program, shape, groups):
     along = defines.get('ALONG') == '1'
     steps = int(defines.get('STEPS', 16))
     slabs = int(defines.get('SLABS', 1))
+    if file == 'rectify.frag':
+        return up(shape['colour'], LANES), []
     if file.endswith('.frag'):
         return up(W * H, LANES), []
     table = {
@@ -202,7 +204,7 @@ def waits(code):
 
 
 PASS = {
-    'camera_picture': 'camera', 'rectify': 'rectify', 'stereo_luma': 'luma', 'exposure_gain': 'luma', 'stereo_features': 'census and gradient',
+    'camera_picture': 'camera', 'rectify': 'rectify', 'picture_reduce': 'reduce', 'stereo_luma': 'luma', 'exposure_gain': 'luma', 'stereo_features': 'census and gradient',
     'stereo_clear': 'row shift', 'row_shift_votes': 'row shift', 'stereo_halve': 'halve', 'stereo_median_luma': 'guide',
     'stereo_permeability': 'permeability', 'stereo_halved_cost': 'cost', 'stereo_halved_cost_narrow': 'cost', 'perm_cost': 'cost',
     'sgm_cost': 'cost', 'perm_weight': 'weights', 'perm_rows': 'cost and rows', 'perm_columns': 'columns and winners',
@@ -230,7 +232,8 @@ def model(name, runs_folder):
     half_width = facts['matcher'] == 'coarse'
     half_height = half_width or facts['matcher'] == 'row_pairs'
     W, H = facts['width_px'], facts['height_px']
-    shape = dict(W=W, H=H, D=facts['disparities'], w=up(W, 2) if half_width else W, h=up(H, 2) if half_height else H)
+    shape = dict(W=W, H=H, D=facts['disparities'], w=up(W, 2) if half_width else W, h=up(H, 2) if half_height else H,
+                 colour=facts['colour_width_px'] * facts['colour_height_px'])
     frames = len({frame for frame, _, _ in runs})
     moved = {p['name']: p['bytes_moved'] for p in facts['passes']}
     rows, passes, longest_ms = {}, {}, 0.0
@@ -268,19 +271,63 @@ def model(name, runs_folder):
                 compile_ms=sum(r['compile_ms'] for r in rows.values()))
 
 
+MALI_SHADER_DB = re.compile(r'^SHADER-DB: MESA_SHADER_(\w+) shader: (\d+) inst, .*, (\d+) threads, (\d+) loops, (\d+):(\d+) spills:fills')
+
+
+def mali_programs(runs_folder):
+    """Of a Mali-G610: programs by file and definitions, in the order of their compilation, with the presets that use each."""
+    found = {}
+    for path in sorted(runs_folder.glob('g610_*.err'), key=lambda path: ('fast', 'balanced', 'quality').index(path.stem[5:])):
+        compiled, current, by_number = [], None, {}
+        for line in path.read_text(errors='replace').splitlines():
+            words = line.split()
+            match = MALI_SHADER_DB.match(line)
+            if match:
+                # A drawing's vertex stages come first.
+                if match.group(1) in ('FRAGMENT', 'COMPUTE'):
+                    compiled.append(list(map(int, match.groups()[1:])))
+            elif line.startswith('TRACE link'):
+                current = int(words[2])
+                by_number[current] = Program(words[3], dict(w.split('=', 1) for w in words[4:]))
+            elif line.startswith('TRACE cpu') and compiled:
+                # Compiled within a link, or within a run where the driver needs a variant.
+                program = by_number[int(words[2])]
+                row = found.setdefault((program.file, program.label()), dict(facts=compiled[-1], compile_ms=float(words[3]), presets=[]))
+                if path.stem[5:] not in row['presets']:
+                    row['presets'].append(path.stem[5:])
+                compiled = []
+    return found
+
+
+def mali_section(programs):
+    out = ['## Mali-G610 (RK3588)', '',
+           'Panfrost, the driver of the Mali-G610 in an RK3588, compiles the same programs on a pretended device. Invocations lie along disparities, as on',
+           'V3D. The table has no times: the driver prints the instructions of a program, and not what its loops make of them.',
+           '*Threads* is 2 where a core keeps all of its threads, and 1 where the program\'s registers halve them. The search is 640x400 with 64 disparities.', '',
+           '| program | definitions | presets | instructions | threads | spills:fills | loops | compile, ms |',
+           '| --- | --- | --- | --- | --- | --- | --- | --- |']
+    for (file, label), row in programs.items():
+        count, threads, loop_count, spills, fills = row['facts']
+        out.append(f"| {file} | {label} | {', '.join(row['presets'])} | {count} | {threads} | {spills}:{fills} | {loop_count} | {row['compile_ms']:.0f} |")
+    return out + ['']
+
+
 def title(m):
     f = m['facts']
     of_yuyv = ', YUYV' if f.get('format') == 'YUYV' else ''
-    return f"{f['preset']} ({f['matcher']}) {f['width_px']}x{f['height_px']}x{f['disparities']}{of_yuyv}"
+    of_larger = f" of {f['colour_width_px']}x{f['colour_height_px']}" if f['colour_width_px'] != f['width_px'] else ''
+    return f"{f['preset']} ({f['matcher']}) {f['width_px']}x{f['height_px']}x{f['disparities']}{of_larger}{of_yuyv}"
 
 
-def document(models, mesa):
+def document(models, mali, mesa):
     out = ['# Raspberry Pi\'s GPU', '',
-           'This page says how much GPU time a rig\'s frame takes at least on a Raspberry Pi 5 and 4, for each preset and size.',
+           'This page says how much GPU time a rig\'s frame takes at least on a Raspberry Pi 5 and 4, for each preset and size. Its end has what the',
+           'compiler of another board\'s GPU makes of the programs.',
            '[Hardware](../build/hardware.md#which-preset) says which preset to choose.', '',
            '```text', 'tools/v3d.sh', '```', '',
            f'The command writes this page. It runs the GPU work of a rig\'s frame on Mesa {mesa}\'s V3D driver and a pretended GPU.',
-           'The work is rectification of NV12 or YUYV, matching of a stream, and the temporal filter. Programs are compiled for the real instruction set.',
+           'The work is rectification of NV12 or YUYV, matching of a stream, and the temporal filter. Where a row says *of 960x720*, rectified pictures of that size',
+           'are reduced before they are matched. Programs are compiled for the real instruction set.',
            'Nothing executes, and no number here was measured on a Raspberry Pi.', '',
            '**Every time is a lower bound.** A pass takes at least the longer of two times. One is the time to issue the instructions that the',
            'compiler emitted, with the loops\' real trip counts, on the QPUs that the pass fills. The other is the time to move the bytes that',
@@ -307,23 +354,29 @@ def document(models, mesa):
         for name, cost in m['passes'].items():
             out.append(f"| {name} | {cost['issue_ms']:.2f} | {cost['bytes'] / 1e6:.1f} | {cost['memory_ms']:.2f} | {cost['bound_ms']:.2f} |")
         out.append('')
-    return '\n'.join(out)
+    return '\n'.join(out + mali_section(mali))
 
 
-def faults(models, previous):
+def faults(models, mali, previous):
     """Sentences about what exceeds a limit."""
     known = {}
     for line in previous.splitlines():
         cells = [c.strip() for c in line.split('|')[1:-1]]
         if len(cells) == 8 and re.fullmatch(r'[0-9.]+', cells[2]):
             known[cells[0], cells[1]] = float(cells[2])
+    for (file, label), row in mali.items():
+        what = f'Mali-G610: {file} {label}'.rstrip()
+        if row['facts'][3] > LIMITS['mali_spills']:
+            yield f"{what} spills {row['facts'][3]} registers, more than {LIMITS['mali_spills']}: give a lane less to hold"
+        if row['compile_ms'] > LIMITS['compile_ms']:
+            yield f"{what} takes {row['compile_ms'] / 1e3:.1f} s to compile, more than {LIMITS['compile_ms'] / 1e3:.0f} s: unroll less"
     for m in models:
         where = f"{m['chip']['name']}, {title(m)}"
         for row in m['rows'].values():
             p = row['program']
             what = f'{where}: {p.file} {p.label()}'.rstrip()
             if p.spills > LIMITS['spills']:
-                yield f"{what} spills {p.spills} registers, more than {LIMITS['spills']}: give a lane less to hold"
+                yield f"{what} spills {p.spills} registers: give a lane less to hold"
             if row['compile_ms'] > LIMITS['compile_ms']:
                 yield f"{what} takes {row['compile_ms'] / 1e3:.1f} s to compile, more than {LIMITS['compile_ms'] / 1e3:.0f} s: unroll less"
             if p.threads < LIMITS['threads']:
@@ -346,11 +399,12 @@ def main():
     models.sort(key=lambda m: (-m['chip']['qpus'], m['facts']['width_px'], order[m['facts']['preset']], m['name']))
     (folder / 'models.json').write_text(json.dumps(
         [dict(name=m['name'], bound_ms=m['bound_ms'], passes=m['passes']) for m in models], indent=1))
+    mali = mali_programs(folder)
     if '--check' not in sys.argv:
-        page.write_text(document(models, mesa))
+        page.write_text(document(models, mali, mesa))
         for m in models:
             print(f"{m['chip']['name']}, {title(m)}: {m['bound_ms']:.1f} ms at least")
-    found = list(faults(models, page.read_text()))
+    found = list(faults(models, mali, page.read_text()))
     for sentence in found:
         print(sentence, file=sys.stderr)
     sys.exit(1 if found else 0)

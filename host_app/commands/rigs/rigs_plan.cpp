@@ -2,6 +2,7 @@
 #include <iostream>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -94,9 +95,29 @@ void weigh(const RigFrame& frame, RigWeight& weight) {
     }
 }
 
+/// The time that a rig's GPU takes for a frame, by the rig's own measurement.
+class GpuTimes {
+  public:
+    void add(const RigStageTimes& times) {
+        sum_ms_ += times.rectify_ms + times.match_ms;
+        ++frames_;
+    }
+    /// Nothing from a rig that neither rectifies nor matches, whose time is that of a few calls.
+    std::optional<double> mean_ms() const {
+        constexpr double least_ms = 0.1;
+        if (frames_ == 0 || sum_ms_ / frames_ < least_ms) return {};
+        return sum_ms_ / frames_;
+    }
+
+  private:
+    double sum_ms_ = 0;
+    int frames_ = 0;
+};
+
 struct Measured {
     std::vector<RigWeight> weights;
     std::vector<std::shared_ptr<const RigFrame>> latest;  ///< of each; null: it has no colour
+    std::vector<GpuTimes> gpu_times;
 };
 
 Measured measure(const PlanOptions& options, const StageConfig& stage) {
@@ -107,6 +128,7 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
         [&](const ArrivedFrame& frame) { scales.see(frame); });
     for (const StageConfig::Rig& rig : stage.rigs) receiver.ask(rig.name, true, 1);
     std::vector<std::shared_ptr<const RigFrame>> latest(stage.rigs.size());
+    std::vector<GpuTimes> gpu_times(stage.rigs.size());
     const MonotonicTime give_up = MonotonicClock::now() + from_s(options.wait_s);
     std::optional<MonotonicTime> end;
     while (!stop.requested()) {
@@ -116,15 +138,18 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
         if (!set) continue;
         // The measurement starts when every rig has sent a frame.
         if (!end && scales.silent().empty()) end = MonotonicClock::now() + from_s(options.seconds);
-        for (std::size_t i = 0; i < set->slots.size(); ++i)
-            if (set->slots[i].frame && !set->slots[i].frame->colour.empty())
-                latest[i] = set->slots[i].frame;
+        for (std::size_t i = 0; i < set->slots.size(); ++i) {
+            const auto& frame = set->slots[i].frame;
+            if (!frame) continue;
+            gpu_times[i].add(frame->times);
+            if (!frame->colour.empty()) latest[i] = frame;
+        }
     }
     if (const std::vector<std::string> silent = scales.silent(); !silent.empty())
         fail("{} sent no frames{}; vantage rigs status shows why", fmt::join(silent, ", "),
              options.start ? ""
                            : "; rigs capture only while a host runs the stage, or with --start");
-    return {scales.means(), std::move(latest)};
+    return {scales.means(), std::move(latest), std::move(gpu_times)};
 }
 
 std::string words_of(const LinkBudget::Proposal& proposal, double rate_hz) {
@@ -166,16 +191,50 @@ void print(const std::vector<RigWeight>& weights, const LinkBudget& budget, doub
                                  words_of(proposal, rate_hz), proposal.host_mbit_s);
 }
 
-/// Which preset a Raspberry Pi could match the rigs' pictures with, once for each size.
-void print_gpu_fits(const std::vector<std::shared_ptr<const RigFrame>>& latest, double rate_hz) {
-    std::set<std::array<int, 3>> shapes;
-    for (const auto& frame : latest)
-        if (frame && frame->max_disparity_px > 0)
-            shapes.insert({frame->geometry.width_px, frame->geometry.height_px,
-                           static_cast<int>(frame->max_disparity_px)});
-    for (const auto& [width_px, height_px, disparities] : shapes)
+/// Returns the different kinds of frames that the rigs match.
+std::vector<MatchedFrame> matched_frames(const std::vector<std::shared_ptr<const RigFrame>>& latest,
+                                         double rate_hz) {
+    std::set<std::array<int, 5>> shapes;
+    for (const auto& frame : latest) {
+        if (!frame || frame->max_disparity_px <= 0) continue;
+        const cv::Size colour(frame->geometry.width_px, frame->geometry.height_px);
+        const cv::Size matched = frame->disparity.empty() ? colour : frame->disparity.size();
+        const cv::Size reduced = matched == colour ? cv::Size() : colour;
+        shapes.insert({matched.width, matched.height, static_cast<int>(frame->max_disparity_px),
+                       reduced.width, reduced.height});
+    }
+    std::vector<MatchedFrame> frames;
+    for (const auto& [width_px, height_px, disparities, colour_width_px, colour_height_px] : shapes)
+        frames.push_back(
+            {width_px, height_px, disparities, rate_hz, colour_width_px, colour_height_px});
+    return frames;
+}
+
+/// Which preset a Raspberry Pi could match the rigs' pictures with.
+void print_gpu_fits(const std::vector<MatchedFrame>& frames) {
+    for (const MatchedFrame& frame : frames)
         for (const GpuFrameModel& model : GpuFrameModel::all())
-            std::cout << model.fit_text(width_px, height_px, disparities, rate_hz) << "\n";
+            std::cout << model.fit_text(frame) << "\n";
+}
+
+/// What the rigs' GPUs take, beside what a preset may take that is to hold the rate.
+void print_gpu_times(const StageConfig& stage, const std::vector<GpuTimes>& times, double rate_hz) {
+    const double limit_ms = 1e3 / rate_hz * 2 / 3;
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (const auto ms = times[i].mean_ms())
+            std::cout << fmt::format(
+                "{}: its GPU takes {:.1f} ms per frame, {} two thirds of a period at {:.4g} Hz "
+                "({:.1f} ms)\n",
+                stage.rigs[i].name, *ms, *ms <= limit_ms ? "within" : "more than", rate_hz,
+                limit_ms);
+}
+
+nlohmann::ordered_json gpu_fits_as_json(const std::vector<MatchedFrame>& frames) {
+    auto fits = nlohmann::ordered_json::array();
+    for (const MatchedFrame& frame : frames)
+        for (const GpuFrameModel& model : GpuFrameModel::all())
+            fits.push_back(model.fit_json(frame));
+    return fits;
 }
 
 nlohmann::ordered_json to_json(const std::vector<RigWeight>& weights, const LinkBudget& budget,
@@ -205,7 +264,7 @@ nlohmann::ordered_json to_json(const std::vector<RigWeight>& weights, const Link
 
 void plan(const PlanOptions& options) {
     const StageConfig stage = load_stage_config(options.stage);
-    auto [weights, latest] = measure(options, stage);
+    auto [weights, latest, gpu_times] = measure(options, stage);
     const double rate_hz = options.rate_hz > 0 ? options.rate_hz : stage.rate_hz;
     LinkBudget budget = plan_links(weights, rate_hz, options.limits);
     if (!budget.fits()) {
@@ -213,11 +272,18 @@ void plan(const PlanOptions& options) {
             if (latest[i]) weigh(*latest[i], weights[i]);
         budget = plan_links(weights, rate_hz, options.limits);
     }
-    if (options.json)
-        std::cout << to_json(weights, budget, rate_hz).dump() << '\n';
-    else
+    const std::vector<MatchedFrame> frames = matched_frames(latest, rate_hz);
+    if (options.json) {
+        nlohmann::ordered_json json = to_json(weights, budget, rate_hz);
+        for (std::size_t i = 0; i < gpu_times.size(); ++i)
+            if (const auto ms = gpu_times[i].mean_ms()) json["rigs"][i]["gpu_ms"] = *ms;
+        json["gpu_fits"] = gpu_fits_as_json(frames);
+        std::cout << json.dump() << '\n';
+    } else {
         print(weights, budget, rate_hz);
-    if (!options.json) print_gpu_fits(latest, rate_hz);
+        print_gpu_times(stage, gpu_times, rate_hz);
+        print_gpu_fits(frames);
+    }
     if (budget.fits()) return;
     std::string full;
     for (const LinkBudget::Rig& rig : budget.rigs)

@@ -44,4 +44,18 @@ const Texture& ReducePass::reduce(const Texture& picture) {
     return reduced_;
 }
 
+PassCost ReducePass::cost() const {
+    constexpr std::size_t bytes_per_pixel = 4;
+    // Instructions for a pixel, and for each sample of it.
+    constexpr double of_pixel = 13, of_sample = 6;
+    const auto pixels = static_cast<std::size_t>(reduced_.size().area());
+    const int side = taps(from_, reduced_.size());
+    return {.bytes_moved = (static_cast<std::size_t>(from_.area()) + pixels) * bytes_per_pixel,
+            .operations = static_cast<double>(pixels) * (of_pixel + of_sample * side * side)};
+}
+
+std::size_t ReducePass::gpu_bytes() const {
+    return static_cast<std::size_t>(reduced_.size().area()) * 4;
+}
+
 }  // namespace vantage

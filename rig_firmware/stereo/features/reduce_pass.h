@@ -5,6 +5,7 @@
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/objects/framebuffer.h"
 #include "common/gl/objects/texture.h"
+#include "rig_firmware/stereo/pass_profiler.h"
 
 namespace vantage {
 
@@ -21,6 +22,12 @@ class ReducePass {
     /// picture: rgba8 of the size `from`, sampled bilinearly. The result is rgba8 of the size `to`,
     /// valid until the next call.
     const Texture& reduce(const Texture& picture);
+
+    const Texture& reduced() const { return reduced_; }  ///< of the last reduce()
+
+    /// Of one reduce().
+    PassCost cost() const;
+    std::size_t gpu_bytes() const;
 
   private:
     cv::Size from_;

@@ -7,8 +7,8 @@
 namespace vantage {
 
 /// Which way invocations lie over the cost volume: pixels for CPUs (llvmpipe) and wide GPUs,
-/// disparities for GPUs with few registers a lane, such as a Raspberry Pi's V3D. Both give the same
-/// bits.
+/// disparities for GPUs with few registers a lane, such as a Raspberry Pi's V3D or a Mali. Both
+/// give the same bits.
 enum class LaneMapping { pixels = 0, disparities = 1 };
 
 /// The one for a GPU, by the name that OpenGL ES gives it.

@@ -3,6 +3,7 @@
 // on a pretended Raspberry Pi, where programs are compiled and nothing executes; on a real GPU the
 // times are the pass profiler's.
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "rig_firmware/capture/camera_intake.h"
 #include "rig_firmware/stereo/disparity/temporal_pass.h"
 #include "rig_firmware/stereo/features/feature_pass.h"
+#include "rig_firmware/stereo/features/reduce_pass.h"
 #include "rig_firmware/stereo/matcher.h"
 #include "tests/bench/support/run_bench.h"
 
@@ -26,6 +28,7 @@ namespace {
 
 struct Options {
     int width_px = 640, height_px = 400, disparities = 64;
+    int match_width_px = 0;  ///< 0: the pictures are matched as they are
     // The last one is no frame in which rows are compared (FeaturePass).
     int frames = FeaturePass::row_shift_period_frames + 2;
     std::string preset = "balanced", matcher;
@@ -63,15 +66,19 @@ void run(const Options& options) {
     CameraIntake left_intake(context, library, size), right_intake(context, library, size);
     RectifyPass rectify_left(library, calibration, Side::left),
         rectify_right(library, calibration, Side::right);
+    const cv::Size matched = reduced_size(size, options.match_width_px);
+    std::optional<ReducePass> reduce_left, reduce_right;
+    if (matched != size)
+        for (auto* reduce : {&reduce_left, &reduce_right}) reduce->emplace(library, size, matched);
     const auto preset = parse_preset(options.preset);
     const std::string name = options.matcher.empty() ? default_matcher(preset) : options.matcher;
     const auto matcher = make_matcher(name, library,
-                                      {.width_px = options.width_px,
-                                       .height_px = options.height_px,
+                                      {.width_px = matched.width,
+                                       .height_px = matched.height,
                                        .disparities = options.disparities,
                                        .preset = preset,
                                        .of_stream = true});
-    TemporalPass temporal(library, options.width_px, options.height_px);
+    TemporalPass temporal(library, matched.width, matched.height);
     Readback readback;
 
     const std::vector<std::byte> bytes(static_cast<std::size_t>(size.area()) * 2);
@@ -84,7 +91,9 @@ void run(const Options& options) {
         std::cerr << "RIG_FRAME " << frame << std::endl;
         const Texture& left = rectify_left.rectify(left_intake.planes(picture));
         const Texture& right = rectify_right.rectify(right_intake.planes(picture));
-        readback.begin(temporal.run(matcher->match(left, right), left));
+        const Texture& matched_left = reduce_left ? reduce_left->reduce(left) : left;
+        const Texture& matched_right = reduce_right ? reduce_right->reduce(right) : right;
+        readback.begin(temporal.run(matcher->match(matched_left, matched_right), matched_left));
         (void)readback.take();
     }
     std::cerr << "RIG_FRAME end" << std::endl;
@@ -101,15 +110,20 @@ void run(const Options& options) {
     passes.push_back({{"name", "rectify"},
                       {"bytes_moved", rectify_left.bytes_moved(raw_bytes_per_pixel) +
                                           rectify_right.bytes_moved(raw_bytes_per_pixel)}});
+    if (reduce_left)
+        passes.push_back(
+            {{"name", "reduce"}, {"bytes_moved", 2 * reduce_left->cost().bytes_moved}});
     for (const PassReport& pass : matcher->passes())
         passes.push_back({{"name", pass.name},
                           {"gpu_ms", pass.gpu_ms},
                           {"bytes_moved", pass.bytes_moved},
                           {"operations", pass.operations}});
-    passes.push_back({{"name", "temporal"}, {"bytes_moved", pixels * 16}});
+    passes.push_back({{"name", "temporal"}, {"bytes_moved", matched.area() * 16}});
     std::cout << nlohmann::ordered_json{{"renderer", GlInfo::query().renderer},
-                                        {"width_px", options.width_px},
-                                        {"height_px", options.height_px},
+                                        {"width_px", matched.width},
+                                        {"height_px", matched.height},
+                                        {"colour_width_px", options.width_px},
+                                        {"colour_height_px", options.height_px},
                                         {"disparities", options.disparities},
                                         {"preset", options.preset},
                                         {"matcher", name},
@@ -125,6 +139,8 @@ int main_of(int argc, char** argv) {
     std::string size = "640x400", format = "nv12";
     CLI::App program{"The GPU work of a rig's frame, pass by pass"};
     program.add_option("--size", size, "WIDTHxHEIGHT of the pictures");
+    program.add_option("--match-width", options.match_width_px,
+                       "Reduce the pictures to this width before they are matched");
     program.add_option("--disparities", options.disparities, "Search range in pixels");
     program.add_option("--preset", options.preset, "fast, balanced or quality");
     program.add_option("--matcher", options.matcher, "Matcher in place of the preset's");

@@ -37,10 +37,12 @@ class RigTroubles : public testing::Test {
     }
 
     std::unique_ptr<ChildProgram> start_rig(const std::string& name, int port, double rate_hz,
-                                            const std::string& stream = "") {
+                                            const std::string& stream = "",
+                                            const std::string& matcher = "exact") {
         std::ofstream(file(name + ".toml"))
             << "version = 1\nname = \"" << name << "\"\n[source]\nrate_hz = " << rate_hz
-            << "\nwidth_px = 160\nheight_px = 120\n[match]\nmatcher = \"exact\"\ndisparities = 32\n"
+            << "\nwidth_px = 160\nheight_px = 120\n[match]\nmatcher = \"" << matcher
+            << "\"\ndisparities = 32\n"
             << "[stream]\nbind = \"" << endpoint(port) << "\"\n"
             << stream;
         return std::make_unique<ChildProgram>(
@@ -219,7 +221,7 @@ TEST_F(RigTroubles, AreCountedWhenARigRestarts) {
 TEST_F(RigTroubles, OfASlowNetworkAreReportedByThePlan) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const auto north = start_rig("north", ports_.first, 5);
-    const auto south = start_rig("south", ports_.second, 5);
+    const auto south = start_rig("south", ports_.second, 5, "", "coarse");
     const std::vector<std::string> arguments{"rigs",      "plan",  "--stage", file("stage.toml"),
                                              "--seconds", "1",     "--wait",  "60",
                                              "--start",   "--json"};
@@ -233,6 +235,12 @@ TEST_F(RigTroubles, OfASlowNetworkAreReportedByThePlan) {
                     8e-6 * 1.073 * 5 *
                         (rig["colour_bytes"].get<double>() + rig["other_bytes"].get<double>()),
                     0.01);
+    }
+    EXPECT_GT(plan["rigs"][1].value("gpu_ms", 0.0), 0.1) << plan;
+    ASSERT_FALSE(plan["gpu_fits"].empty()) << plan;
+    for (const nlohmann::json& fit : plan["gpu_fits"]) {
+        EXPECT_EQ(fit["rate_hz"], 5);
+        EXPECT_GT(fit["lower_bounds_ms"]["quality"], fit["lower_bounds_ms"]["fast"]);
     }
     std::vector<std::string> narrow = arguments;
     narrow.insert(narrow.end(), {"--rate", "1000", "--host-link", "100"});

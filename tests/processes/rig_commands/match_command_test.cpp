@@ -165,6 +165,26 @@ TEST_F(MatchCommandTest, ExplainsItsPasses) {
     EXPECT_NE(person.out.find("cost volumes"), std::string::npos);
 }
 
+TEST_F(MatchCommandTest, MatchesASmallerCopyAndExplainsWhatItTakes) {
+    const ProgramResult result =
+        match({"--disparities", "16", "--preset", "fast", "--width", "40", "--explain", "--json"});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const auto json = nlohmann::json::parse(result.out);
+    EXPECT_EQ(json.at("width"), 40);
+    EXPECT_EQ(json.at("height"), 31);
+    const auto& reduce = json.at("passes").at(0);
+    EXPECT_EQ(reduce.at("name"), "reduce");
+    EXPECT_EQ(reduce.at("runs"), 2);
+    EXPECT_EQ(reduce.at("bytes_moved"), 2 * 4 * (61 * 47 + 40 * 31));
+    const cv::Mat1f px = read_pfm(output_);
+    ASSERT_EQ(px.size(), cv::Size(40, 31));
+    EXPECT_NEAR(px(15, 26), shift_px * 40.0 / 61, 0.5);
+}
+
+TEST_F(MatchCommandTest, RefusesToMatchMorePixelsThanThereAre) {
+    expect_refusal(match({"--disparities", "16", "--width", "62"}), {"--width 62", "61 px wide"});
+}
+
 TEST_F(MatchCommandTest, RefusesMissingAndDamagedPictures) {
     expect_refusal(run({"match", path("none.png"), right_, "--disparities", "16", "-o", output_}),
                    {"none.png"});
