@@ -20,8 +20,6 @@ thread_local const SlicedDrawing* current_slicing = nullptr;
 
 /// The first band of a pass, and the smallest one, in rows.
 constexpr int first_rows = 32, fewest_rows = 8;
-/// A driver that does not answer for this long is lost, not slow.
-constexpr std::chrono::seconds patience{10};
 /// The longest wait of a band for a priority renderer, so that one that is always busy leaves some
 /// time to others.
 constexpr std::chrono::milliseconds longest_way{60};
@@ -86,7 +84,7 @@ void SlicedDrawing::draw(cv::Size target, int& rows, const std::function<void()>
         const MonotonicTime start = MonotonicClock::now();
         scissor.keep(y, height);
         draw();
-        (void)Fence::insert().reached_within(patience);
+        Fence::insert().wait("a part of a picture was drawn");
         const std::chrono::nanoseconds time = MonotonicClock::now() - start;
         drew_for(time);
         const double share =

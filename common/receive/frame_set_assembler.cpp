@@ -32,16 +32,24 @@ FrameSetAssembler::FrameSetAssembler(std::vector<std::string> rigs, const Option
                           std::max<std::chrono::nanoseconds>(silence_limit, patience(options, 1)),
                           behind_limit}) {
     for (std::string& name : rigs) {
+        order_.push_back(rigs_.size());
         rigs_.emplace_back();
         rigs_.back().name = std::move(name);
     }
+}
+
+void FrameSetAssembler::add_rig(std::string name) {
+    rigs_.emplace_back();
+    rigs_.back().name = std::move(name);
+    step_.add_rig();
+    for (auto& [index, set] : open_) set.frames.resize(rigs_.size());
 }
 
 FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const RigFrame> frame,
                                  MonotonicTime arrival) {
     assert(rig_number < rigs_.size());
     Rig& rig = rigs_[rig_number];
-    if (!frame->synchronized && rigs_.size() > 1) {
+    if (!frame->synchronized && order_.size() > 1) {
         rig.unsynchronized_in_a_row = std::min(rig.unsynchronized_in_a_row + 1, pulseless_after);
         return FrameFate::unsynchronized;
     }
@@ -71,7 +79,10 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
     OpenFrameSet& set = place->second;
     if (opened) {
         set.frames.resize(rigs_.size());
-        set.deadline = arrival + options_.latency_budget;
+        // A rig that runs ahead must not use up the other rigs' time.
+        const std::chrono::nanoseconds ahead = step_.ahead_of_most(rig_number, arrival);
+        set.deadline = arrival + options_.latency_budget +
+                       (ahead > options_.period ? ahead : std::chrono::nanoseconds(0));
     }
     if (set.frames[rig_number]) return FrameFate::duplicate;
     set.frames[rig_number] = std::move(frame);
@@ -154,11 +165,13 @@ void FrameSetAssembler::close_through(std::uint64_t index, MonotonicTime now) {
         FrameSet set;
         set.trigger_index = node.key();
         set.complete = now;
-        for (std::size_t rig = 0; rig < rigs_.size(); ++rig) {
-            std::shared_ptr<const RigFrame>& frame = node.mapped().frames[rig];
-            const Absence why = frame ? Absence::none : absence(rig, set.trigger_index);
-            set.slots.push_back({rigs_[rig].name, std::move(frame), why});
+        std::vector<std::shared_ptr<const RigFrame>>& frames = node.mapped().frames;
+        for (const std::size_t rig : order_) {
+            const Absence why = frames[rig] ? Absence::none : absence(rig, set.trigger_index);
+            set.slots.push_back({rigs_[rig].name, std::exchange(frames[rig], nullptr), why});
         }
+        for (std::size_t rig = 0; rig < rigs_.size(); ++rig)
+            if (frames[rig]) set.slots.push_back({rigs_[rig].name, std::move(frames[rig])});
         last_closed_ = set.trigger_index;
         closed_deadlines_[set.trigger_index] = node.mapped().deadline;
         if (closed_deadlines_.size() > max_open_frame_sets)

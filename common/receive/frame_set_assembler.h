@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/base/time/time.h"
@@ -28,7 +29,8 @@ enum class FrameFate {
 /// of its pulse. It closes when every active rig has delivered the pulse or a later one, or when
 /// the latency budget is used up. The budget counts from that first frame, not from the exposure:
 /// it bounds the delay that one rig can cause, whatever the rigs' own latencies and the host's
-/// clock are. Frame sets close in the order of their pulses.
+/// clock are. If that first frame is more than a period ahead of most rigs' (of three or more), the
+/// budget counts from when theirs are due. Frame sets close in the order of their pulses.
 ///
 /// A rig is active if it is connected, is asked for the pulse, was not silent for longer than the
 /// latency budget plus two of its periods, and does not lag. A silent rig is active again with its
@@ -51,6 +53,16 @@ class FrameSetAssembler {
     FrameSetAssembler(std::vector<std::string> rigs, const Options& options);
 
     FrameFate add(std::size_t rig, std::shared_ptr<const RigFrame> frame, MonotonicTime arrival);
+
+    /// Appends a rig, whose number is the next one. It gets a place in frame sets with set_order().
+    void add_rig(std::string name);
+    /// Sets which rigs have a slot in frame sets from now on, by their numbers, and the order of
+    /// the slots. Initially all rigs, in the order of their numbers. A frame of another rig still
+    /// has a slot in its frame set, after the others.
+    void set_order(std::vector<std::size_t> order) { order_ = std::move(order); }
+    const std::vector<std::size_t>& order() const { return order_; }
+    /// Changes the latency budget of frame sets that open from now on.
+    void set_latency_budget(std::chrono::nanoseconds budget) { options_.latency_budget = budget; }
 
     /// Sets whether the rig is connected; initially not.
     void set_connected(std::size_t rig, bool connected);
@@ -98,6 +110,7 @@ class FrameSetAssembler {
     void close_through(std::uint64_t index, MonotonicTime now);
 
     std::vector<Rig> rigs_;
+    std::vector<std::size_t> order_;
     Options options_;
     StageStep step_;
     std::map<std::uint64_t, OpenFrameSet> open_;

@@ -14,6 +14,12 @@ void OutageCounter::note(bool connected, std::optional<MonotonicTime> heard) {
     was_connected_ = connected;
 }
 
+void OutageCounter::leave(MonotonicTime now) {
+    ended_ = length(now);
+    since_.reset();
+    was_connected_ = false;
+}
+
 std::chrono::nanoseconds OutageCounter::length(MonotonicTime now) const {
     return ended_ + (since_ ? now - *since_ : std::chrono::nanoseconds(0));
 }

@@ -14,6 +14,9 @@ class OutageCounter {
     /// Call it periodically. `heard`: the rig's last message, from which an outage counts.
     void note(bool connected, std::optional<MonotonicTime> heard);
 
+    /// Ends the count: the time until note() is called again is no outage.
+    void leave(MonotonicTime now);
+
     /// Number of outages, including a current one.
     std::uint64_t outages() const { return outages_; }
     std::chrono::nanoseconds length(MonotonicTime now) const;

@@ -94,6 +94,19 @@ void RigLink::open() {
     }
 }
 
+void RigLink::continue_from(const Continuity& former) {
+    host_id_ = former.host_id;
+    account_ = former.account;
+    show_account();
+}
+
+void RigLink::show_account() {
+    view_.lost = account_.lost();
+    view_.restarts = account_.restarts();
+    view_.link = account_.link_counters();
+    view_.rig_counters = account_.rig_counters();
+}
+
 void RigLink::use_address(const std::string& address) {
     if (address == address_) return;
     address_ = address;
@@ -153,10 +166,7 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     view_.session = message.session;
     gone_ = false;
     view_.refused.clear();
-    view_.lost = account_.lost();
-    view_.restarts = account_.restarts();
-    view_.link = account_.link_counters();
-    view_.rig_counters = account_.rig_counters();
+    show_account();
     view_.since_start = message.rig_counters;
     view_.sync = message.sync;
     view_.health = message.health;

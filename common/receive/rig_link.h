@@ -71,6 +71,15 @@ class RigLink {
     RigLink(const RigLink&) = delete;
     RigLink& operator=(const RigLink&) = delete;
 
+    /// The identity of this host's link to a rig, with its counts.
+    struct Continuity {
+        std::uint64_t host_id = 0;
+        LinkAccount account;
+    };
+    /// Takes the place of a link to the same rig, which is given up. Call it before tick().
+    void continue_from(const Continuity& former);
+    Continuity continuity() const { return {host_id_, account_}; }
+
     zmq::socket_t& socket() { return socket_; }
     zmq::socket_t& monitor() { return monitor_; }
 
@@ -94,6 +103,7 @@ class RigLink {
     void open();
     void close();
     void refuse(std::string sentence, MonotonicTime now);
+    void show_account();
     bool take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Delivery& delivery);
 
     zmq::context_t& context_;

@@ -12,6 +12,7 @@ namespace vantage {
 namespace {
 
 std::string trouble_of_link(const RigStatus& rig) {
+    if (rig.is_removed) return removed_rig;
     if (!rig.refused.empty()) return rig.refused;
     if (rig.connected) return {};
     return rig.unreachable.empty() ? fmt::format("{} is silent", rig.endpoint) : rig.unreachable;

@@ -24,6 +24,7 @@ struct RigStatus {
     std::string rig;
     std::string endpoint;
     bool connected = false;      ///< a frame or heartbeat came within the last second
+    bool is_removed = false;     ///< the stage file names it no longer
     std::string refused;         ///< why the rig refused this host, in a sentence; empty: not
     std::string unreachable;     ///< why nothing answers, if known
     std::uint64_t outages = 0;   ///< number of times that the connected rig disconnected
@@ -69,6 +70,9 @@ struct ReceiverStatus {
     std::optional<MonotonicTime> newest_frame_set;  ///< when the last of them was closed
 };
 
+/// The state of a rig that the stage file names no longer.
+inline constexpr const char* removed_rig = "removed from the stage";
+
 inline constexpr const char* clocks_not_disciplined = "clocks not disciplined: skew unknown";
 
 /// Describes the rig's clock relative to the stage's: PTP's offset and path delay, or
@@ -87,8 +91,8 @@ std::string tai_warning(const RigStatus& rig);
 /// then never join another rig's.
 std::string rate_warning(const RigStatus& rig);
 
-/// Why the rig contributes no frames, as far as the host knows: refused, unreachable, silent, or
-/// out of step. Empty for a rig that contributes.
+/// Why the rig contributes no frames, as far as the host knows: removed, refused, unreachable,
+/// silent, or out of step. Empty for a rig that contributes.
 std::string trouble_of(const RigStatus& rig);
 
 /// Whether the rig's frames join frame sets: nothing is wrong with it, or only its rate while no

@@ -18,6 +18,7 @@
 #include "common/base/log_limiter.h"
 #include "common/base/refused_inputs.h"
 #include "common/base/this_thread.h"
+#include "common/base/time/clock_step_watch.h"
 #include "common/base/time/kernel_clock.h"
 #include "common/base/time/time.h"
 #include "common/base/trace/trace.h"
@@ -50,9 +51,13 @@ constexpr std::size_t rigs_a_network_thread = 8;
 constexpr std::size_t descriptors_a_rig = 8, descriptors_of_a_host = 48;
 
 /// Checks the limit of open files before ZeroMQ starts, which aborts if it cannot open its own.
-int network_threads(const StageConfig& stage) {
+void require_descriptors_for(const StageConfig& stage) {
     require_descriptors(descriptors_of_a_host + descriptors_a_rig * stage.rigs.size(),
                         fmt::format("a stage of {} rigs", stage.rigs.size()));
+}
+
+int network_threads(const StageConfig& stage) {
+    require_descriptors_for(stage);
     return static_cast<int>(1 + stage.rigs.size() / rigs_a_network_thread);
 }
 
@@ -91,33 +96,47 @@ FrameSetAssembler::Options assembler_options(const StageConfig& stage) {
 
 }  // namespace
 
+struct StageReceiver::Update::Content {
+    StageConfig stage;
+    std::vector<std::string> names;
+    std::optional<CurveKeys> host_keys;
+    std::vector<std::size_t> numbers;             ///< of the stage's rigs
+    std::vector<std::unique_ptr<RigLink>> links;  ///< null: the rig's link stays
+};
+
 struct StageReceiver::Impl {
+    using StageUpdate = Update::Content;
+
+    /// Log lines about a rig's state that may be written within a period. A rig whose state changes
+    /// more often than this is faulty or hostile, and the log must not fill the disk.
+    static constexpr int most_state_lines = 40;
+    static constexpr std::chrono::seconds state_lines_period{10};
+
+    /// Counts the log lines about a rig's state.
+    struct StateLines {
+        MonotonicTime began{};
+        int written = 0;
+        std::uint64_t left_out = 0;
+    };
+
     /// One rig: its link on the I/O thread, and its decoder on a thread of its own, so that its
     /// frames keep their order.
     struct Rig {
-        Rig(zmq::context_t& context, const StageConfig::Rig& config,
-            const std::optional<CurveKeys>& keys)
-            : name(config.name),
-              endpoint(parse_endpoint(config.endpoint, "endpoint")),
-              link(context, config, keys),
-              inbox(RigLink::credit_window) {
-            status.rig = name;
-            status.endpoint = config.endpoint;
-            status.same_clock = endpoint.loopback;
-        }
+        explicit Rig(std::string its_name) : name(std::move(its_name)) { status.rig = name; }
         const std::string name;
-        const Endpoint endpoint;
-        RigLink link;
-        BoundedQueue<RigLink::Delivery> inbox;
         std::atomic<std::uint64_t> unhandled = 0;
         std::atomic<bool> is_decoded = true;
-        std::thread decoder;
 
-        // Used by the decoder's thread only: the newest right image, and the session it is from.
-        SharedBytes right_jpeg;
-        std::uint64_t session = 0;
+        // Used by the I/O thread only.
+        std::unique_ptr<RigLink> link;  ///< null: the rig is removed
+        std::optional<RigLink::Continuity> former_link;
+        /// Closed once the rig is removed; the decoder then ends when the queue is empty.
+        std::shared_ptr<BoundedQueue<RigLink::Delivery>> inbox;
+        std::future<void> decoder;
 
         // Guarded by Impl::mutex.
+        StageConfig::Rig config;
+        Endpoint endpoint;
         RigStatus status;
         bool relay_answers = false;     ///< a relay answers for the rig, with its reason
         std::string answering_address;  ///< of its host name, as a probe found; empty: none yet
@@ -126,7 +145,15 @@ struct StageReceiver::Impl {
         std::shared_ptr<const std::string> report;
         OutageCounter outages;
         LogLimiter complaints{complaint_period};
+        StateLines state_lines;
         PercentileRecorder latency_ms, network_ms, decode_ms;
+    };
+
+    /// What the thread that decodes a rig's frames alone uses.
+    struct Decoder {
+        FrameDecoder frames;
+        SharedBytes right_jpeg;     ///< the newest right image
+        std::uint64_t session = 0;  ///< that it is from
     };
 
     Impl(const StageConfig& stage, Purpose why, FrameTap frame_tap)
@@ -135,18 +162,14 @@ struct StageReceiver::Impl {
           context(network_threads(stage)),
           assembler(names_of(stage), assembler_options(stage)),
           starter(PulseGrid(stage.rate_hz)),
+          stage_rate_hz(stage.rate_hz),
           closed_frame_sets(max_closed_sets) {
-        std::optional<CurveKeys> keys;
-        if (!stage.key_file.empty()) keys = load_key_file(stage.key_file);
-        for (const StageConfig::Rig& rig : stage.rigs)
-            rigs.push_back(std::make_unique<Rig>(context, rig, keys));
-        for (const auto& rig : rigs) {
-            rig->request.streaming = films();
-            rig->request.raw_pairs = purpose == Purpose::calibrate;
-            rig->status.stage_rate_hz = stage.rate_hz;
-        }
-        for (std::size_t i = 0; i < rigs.size(); ++i)
-            rigs[i]->decoder = std::thread([this, i] { decode_all(i); });
+        StageUpdate update = update_to(stage);
+        note_newest(update);
+        for (std::size_t number = 0; number < stage.rigs.size(); ++number)
+            rigs.push_back(std::make_unique<Rig>(stage.rigs[number].name));
+        for (std::size_t number = 0; number < stage.rigs.size(); ++number)
+            join(number, stage.rigs[number], std::move(update.links[number]));
         io_thread = std::thread([this] { run(); });
     }
 
@@ -154,10 +177,117 @@ struct StageReceiver::Impl {
         stopping = true;
         wake.notify();
         io_thread.join();
-        for (const auto& rig : rigs) rig->inbox.close();
-        for (const auto& rig : rigs) rig->decoder.join();
+        for (const auto& rig : rigs) rig->inbox->close();
+        for (const auto& rig : rigs) rig->decoder.wait();
     }
 
+    /// Makes the links that a stage needs. Throws Error. Precondition: mutex is held, or there are
+    /// no other threads.
+    StageUpdate update_to(const StageConfig& stage) {
+        require_descriptors_for(stage);
+        (void)assembler_options(stage);
+        StageUpdate update{stage, numbered_names, {}, {}, {}};
+        for (const std::string& name : names_of(stage))
+            if (std::find(numbered_names.begin(), numbered_names.end(), name) ==
+                numbered_names.end())
+                update.names.push_back(name);
+        if (!stage.key_file.empty()) update.host_keys = load_key_file(stage.key_file);
+        const auto key_of = [](const std::optional<CurveKeys>& pair) {
+            return pair ? pair->public_key : std::string();
+        };
+        const bool has_new_key = key_of(update.host_keys) != key_of(host_keys);
+        for (const StageConfig::Rig& rig : stage.rigs) {
+            const auto before =
+                std::find_if(connected.begin(), connected.end(),
+                             [&](const StageConfig::Rig& other) { return other.name == rig.name; });
+            const bool stays = before != connected.end() && before->endpoint == rig.endpoint &&
+                               before->public_key == rig.public_key &&
+                               (rig.public_key.empty() || !has_new_key);
+            update.links.push_back(
+                stays ? nullptr : std::make_unique<RigLink>(context, rig, update.host_keys));
+            update.numbers.push_back(static_cast<std::size_t>(
+                std::find(update.names.begin(), update.names.end(), rig.name) -
+                update.names.begin()));
+        }
+        return update;
+    }
+
+    /// Makes an update the newest one. Precondition as of update_to().
+    void note_newest(const StageUpdate& update) {
+        numbered_names = update.names;
+        connected = update.stage.rigs;
+        host_keys = update.host_keys;
+    }
+
+    /// Connects a rig, or connects it in another way. On the I/O thread, or before it runs.
+    void join(std::size_t number, const StageConfig::Rig& config, std::unique_ptr<RigLink> link) {
+        Rig& rig = *rigs[number];
+        if (rig.link) rig.former_link = rig.link->continuity();
+        if (rig.former_link) link->continue_from(*rig.former_link);
+        const bool is_new = !rig.link;
+        rig.link = std::move(link);
+        const std::lock_guard lock(mutex);
+        rig.config = config;
+        rig.endpoint = parse_endpoint(config.endpoint, "endpoint");
+        rig.answering_address.clear();
+        rig.status.endpoint = config.endpoint;
+        rig.status.same_clock = rig.endpoint.loopback;
+        rig.status.unreachable.clear();
+        rig.status.is_removed = false;
+        rig.status.stage_rate_hz = stage_rate_hz;
+        if (!is_new) return;
+        rig.request = {};
+        rig.request.streaming = films();
+        rig.request.raw_pairs = purpose == Purpose::calibrate;
+        rig.is_decoded = true;
+        if (rig.decoder.valid()) ended_decoders.push_back(std::move(rig.decoder));
+        rig.inbox = std::make_shared<BoundedQueue<RigLink::Delivery>>(RigLink::credit_window);
+        rig.decoder = std::async(std::launch::async, [this, number, &rig, inbox = rig.inbox] {
+            decode_all(number, rig, *inbox);
+        });
+    }
+
+    /// Disconnects a rig. Frames that it has delivered still join their frame sets.
+    void remove(Rig& rig) {
+        rig.former_link = rig.link->continuity();
+        rig.link.reset();
+        rig.inbox->close();
+        const std::lock_guard lock(mutex);
+        rig.status.connected = false;
+        rig.status.is_removed = true;
+        rig.status.refused.clear();
+        rig.status.unreachable.clear();
+        rig.status.is_out_of_step = rig.status.lags = rig.status.names_no_pulse = false;
+        rig.outages.leave(MonotonicClock::now());
+        log_info("rig {} is removed from the stage", rig.name);
+    }
+
+    /// Applies an update on the I/O thread.
+    void apply(StageUpdate update) {
+        std::erase_if(ended_decoders, [](const std::future<void>& decoder) {
+            return decoder.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        });
+        for (const StageConfig::Rig& config : update.stage.rigs) {
+            const auto same_name = [&](const auto& rig) { return rig->name == config.name; };
+            if (std::any_of(rigs.begin(), rigs.end(), same_name)) continue;
+            const std::lock_guard lock(mutex);
+            rigs.push_back(std::make_unique<Rig>(config.name));
+            assembler.add_rig(config.name);
+        }
+        for (std::size_t number = 0; number < rigs.size(); ++number) {
+            const bool stays = std::find(update.numbers.begin(), update.numbers.end(), number) !=
+                               update.numbers.end();
+            if (!stays && rigs[number]->link) remove(*rigs[number]);
+        }
+        for (std::size_t i = 0; i < update.numbers.size(); ++i)
+            if (update.links[i])
+                join(update.numbers[i], update.stage.rigs[i], std::move(update.links[i]));
+        const std::lock_guard lock(mutex);
+        assembler.set_order(update.numbers);
+        assembler.set_latency_budget(assembler_options(update.stage).latency_budget);
+    }
+
+    /// Precondition: mutex is held.
     Rig& named(std::string_view name) {
         const auto rig = std::find_if(rigs.begin(), rigs.end(),
                                       [&](const auto& each) { return each->name == name; });
@@ -179,17 +309,26 @@ struct StageReceiver::Impl {
     void turn() {
         std::vector<zmq::pollitem_t> items{{nullptr, wake.fd(), ZMQ_POLLIN, 0}};
         for (const auto& rig : rigs) {
-            items.push_back({rig->link.socket().handle(), 0, ZMQ_POLLIN, 0});
-            items.push_back({rig->link.monitor().handle(), 0, ZMQ_POLLIN, 0});
+            if (!rig->link) continue;
+            items.push_back({rig->link->socket().handle(), 0, ZMQ_POLLIN, 0});
+            items.push_back({rig->link->monitor().handle(), 0, ZMQ_POLLIN, 0});
         }
         wait_for(items, next_wait());
         wake.clear();
+        std::vector<StageUpdate> changes;
+        {
+            const std::lock_guard lock(mutex);
+            changes.swap(updates);
+        }
+        for (StageUpdate& change : changes) apply(std::move(change));
+        watch_clock();
         const MonotonicTime now = MonotonicClock::now();
         for (std::size_t number = 0; number < rigs.size(); ++number) {
             const auto& rig = rigs[number];
-            rig->link.watch(now);
+            if (!rig->link) continue;
+            rig->link->watch(now);
             // One frame at a time, so that a rig that floods this host does not delay the others.
-            if (std::optional<RigLink::Delivery> delivery = rig->link.receive(now)) {
+            if (std::optional<RigLink::Delivery> delivery = rig->link->receive(now)) {
                 TraceSpan span("receive");
                 span.in(TraceId::of_rig_frame(number, delivery->message.counters.sent),
                         TraceFlow::begins);
@@ -205,23 +344,58 @@ struct StageReceiver::Impl {
                 request = rig->request;
                 if (!rig->status.connected) other_address = rig->answering_address;
             }
-            if (!other_address.empty()) rig->link.use_address(other_address);
+            if (!other_address.empty()) rig->link->use_address(other_address);
             request.unhandled = rig->unhandled;
             request.first_pulse = first_pulse;
-            rig->link.tick(request, now);
+            rig->link->tick(request, now);
         }
         const std::lock_guard lock(mutex);
         for (std::size_t i = 0; i < rigs.size(); ++i) {
             Rig& rig = *rigs[i];
-            show(rig, rig.link.view(now), now);
+            if (rig.link) show(rig, rig.link->view(now), now);
             // Frames that arrived before the rig disconnected still join their frame sets.
             assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
             assembler.set_at_stage_rate(i, rate_warning(rig.status).empty());
-            assembler.set_asked(i, rig.request.streaming ? rig.request.rate_divisor : 0);
-            note_step(rig, i);
+            assembler.set_asked(i,
+                                rig.link && rig.request.streaming ? rig.request.rate_divisor : 0);
+            if (rig.link) note_step(rig, i);
         }
         collect_closed(now);
         start_take(now);
+    }
+
+    /// Names a step of this computer's clock. Frame sets do not depend on that clock.
+    void watch_clock() {
+        const auto step = own_clock.look();
+        if (step && purpose != Purpose::report)
+            log_warning(
+                "the clock of this computer was set by {:+.1f} ms: latencies and the times of "
+                "takes are off by as much, and frames and ticks are not affected; let PTP or NTP "
+                "adjust the clock slowly while a show runs",
+                to_ms(*step));
+    }
+
+    /// Writes a log line about the rig's state, unless there were too many. Precondition: mutex is
+    /// held.
+    static void tell_state(Rig& rig, bool is_warning, const std::string& line) {
+        StateLines& lines = rig.state_lines;
+        const MonotonicTime now = MonotonicClock::now();
+        if (lines.written == 0 || now - lines.began > state_lines_period) {
+            if (lines.left_out > 0)
+                log_warning("rig {}: {} further lines about its state were left out", rig.name,
+                            lines.left_out);
+            lines = {now, 0, 0};
+        }
+        if (lines.written == most_state_lines) {
+            if (++lines.left_out == 1)
+                log_warning(
+                    "rig {}: its state changes all the time, and the log leaves the changes out; "
+                    "look for a second rig of this name, or for a rig that was tampered with",
+                    rig.name);
+            return;
+        }
+        ++lines.written;
+        is_warning ? log_warning("{}", line) : log_info("{}", line);
     }
 
     /// Precondition: mutex is held.
@@ -233,19 +407,24 @@ struct StageReceiver::Impl {
         status.names_no_pulse = assembler.names_no_pulse(number);
         const bool is_wrong = status.is_out_of_step || status.lags || status.names_no_pulse;
         if (is_wrong && !was_wrong)
-            log_warning("rig {}: {}", rig.status.rig, trouble_of(rig.status));
+            tell_state(rig, true, fmt::format("rig {}: {}", rig.name, trouble_of(rig.status)));
         else if (was_wrong && !is_wrong)
-            log_info("rig {} is in step again", rig.status.rig);
+            tell_state(rig, false, fmt::format("rig {} is in step again", rig.name));
     }
 
     /// Precondition: mutex is held.
     void start_take(MonotonicTime now) {
         if (!films()) return;
         std::vector<TakeStarter::Rig> all;
-        for (const auto& rig : rigs) all.push_back({rig->status.connected, rig->status.sync});
+        std::vector<const Rig*> of_stage;
+        for (const auto& rig : rigs) {
+            if (!rig->link) continue;
+            of_stage.push_back(rig.get());
+            all.push_back({rig->status.connected, rig->status.sync});
+        }
         const auto first = starter.update(all, TaiClock::now(), now);
         for (const std::size_t late : starter.laggards(all, now))
-            log_warning("rig {} is not ready; it will join when it is", rigs[late]->name);
+            log_warning("rig {} is not ready; it will join when it is", of_stage[late]->name);
         if (!first || first_pulse != 0) return;
         first_pulse = *first;
         log_info("the stage's first pulse is {}", first_pulse);
@@ -261,41 +440,46 @@ struct StageReceiver::Impl {
 
     bool is_unexplained(const Rig& rig) const {
         const std::lock_guard lock(mutex);
-        return !rig.status.connected && rig.status.refused.empty() && !rig.relay_answers;
+        return !rig.status.connected && !rig.status.is_removed && rig.status.refused.empty() &&
+               !rig.relay_answers;
     }
 
     /// Diagnoses why a rig is not connected.
     void probe(Rig& rig) {
-        auto [address, reason] = reach(rig.endpoint, probe_limit);
+        const Endpoint endpoint = [&] {
+            const std::lock_guard lock(mutex);
+            return rig.endpoint;
+        }();
+        auto [address, reason] = reach(endpoint, probe_limit);
         if (reason.empty())
             reason = fmt::format(
                 "something at {} accepts connections but does not speak Vantage's protocol: the "
                 "rig or this host is stopped or busy, or another program has the port",
-                rig.endpoint.text());
+                endpoint.text());
         const std::lock_guard lock(mutex);
+        if (rig.status.is_removed || rig.endpoint.text() != endpoint.text()) return;
         if (!address.empty()) rig.answering_address = std::move(address);
         if (!rig.status.connected && !rig.relay_answers) rig.status.unreachable = std::move(reason);
     }
 
     void hand_over(Rig& rig, RigLink::Delivery delivery) {
         ++rig.unhandled;
-        if (rig.inbox.push(std::move(delivery))) {
+        if (rig.inbox->push(std::move(delivery))) {
             --rig.unhandled;
             const std::lock_guard lock(mutex);
             ++rig.status.queue_dropped;
         }
     }
 
-    void decode_all(std::size_t number) {
+    void decode_all(std::size_t number, Rig& rig, BoundedQueue<RigLink::Delivery>& inbox) {
         name_this_thread("decode");
-        Rig& rig = *rigs[number];
-        FrameDecoder decoder;
+        Decoder decoder;
         std::chrono::milliseconds patience = first_probe_after;
         // On another thread, so that a rig that returns meanwhile does not wait for a name lookup.
         std::future<void> probing;
         while (true) {
-            const std::optional<RigLink::Delivery> delivery = rig.inbox.pop_for(patience);
-            if (!delivery && rig.inbox.closed()) return;
+            const std::optional<RigLink::Delivery> delivery = inbox.pop_for(patience);
+            if (!delivery && inbox.closed()) return;
             patience = probe_period;
             if (!delivery) {
                 const bool is_free =
@@ -306,7 +490,7 @@ struct StageReceiver::Impl {
                 continue;
             }
             try {
-                decode(number, decoder, *delivery);
+                decode(number, rig, decoder, *delivery);
             } catch (const std::exception& error) {
                 note_refused_input("frame", delivery->frame->header, error.what());
                 const std::lock_guard lock(mutex);
@@ -318,14 +502,13 @@ struct StageReceiver::Impl {
         }
     }
 
-    void decode(std::size_t number, FrameDecoder& decoder, const RigLink::Delivery& delivery) {
-        Rig& rig = *rigs[number];
+    void decode(std::size_t number, Rig& rig, Decoder& decoder, const RigLink::Delivery& delivery) {
         TraceSpan span("decode");
         span.in(TraceId::of_rig_frame(number, delivery.message.counters.sent), TraceFlow::ends);
         const MonotonicTime start = MonotonicClock::now();
         const PackedFrame& packed = *delivery.frame;
         auto frame = std::make_shared<RigFrame>(
-            rig.is_decoded ? decoder.decode(packed.header, packed.colour, packed.disparity)
+            rig.is_decoded ? decoder.frames.decode(packed.header, packed.colour, packed.disparity)
                            : decode_frame_head(packed.header).frame);
         frame->packed = delivery.frame;
         if (frame->rig != delivery.message.rig || frame->session != delivery.message.session)
@@ -335,9 +518,10 @@ struct StageReceiver::Impl {
         const TaiTime decoded = TaiClock::now();
 
         // The right image comes occasionally; a consumer that takes only some frames needs it, too.
-        if (!frame->right_jpeg && frame->session == rig.session) frame->right_jpeg = rig.right_jpeg;
-        rig.right_jpeg = frame->right_jpeg;
-        rig.session = frame->session;
+        if (!frame->right_jpeg && frame->session == decoder.session)
+            frame->right_jpeg = decoder.right_jpeg;
+        decoder.right_jpeg = frame->right_jpeg;
+        decoder.session = frame->session;
         const std::lock_guard lock(mutex);
         rig.decode_ms.add(to_ms(end - start));
         if (delivery.arrival_tai - frame->published > clocks_differ)
@@ -371,14 +555,14 @@ struct StageReceiver::Impl {
             TraceSpan span("frame set");
             span.with("rigs", set.present())
                 .in(TraceId::of_frame_set(set.trigger_index), TraceFlow::begins);
-            for (std::size_t i = 0; i < rigs.size(); ++i)
-                rigs[i]->status.in_frame_sets += set.slots[i].frame != nullptr;
+            for (const FrameSet::Slot& slot : set.slots)
+                if (slot.frame) ++named(slot.rig).status.in_frame_sets;
             ++sets;
-            complete_frame_sets += set.present() == static_cast<int>(rigs.size());
+            complete_frame_sets += set.present() == static_cast<int>(set.slots.size());
             newest_frame_set = now;
             if (const std::optional<FrameSet> dropped = closed_frame_sets.push(std::move(set)))
-                for (std::size_t i = 0; i < rigs.size(); ++i)
-                    rigs[i]->status.in_dropped_frame_sets += dropped->slots[i].frame != nullptr;
+                for (const FrameSet::Slot& slot : dropped->slots)
+                    if (slot.frame) ++named(slot.rig).status.in_dropped_frame_sets;
         }
     }
 
@@ -390,15 +574,17 @@ struct StageReceiver::Impl {
         RigStatus& status = rig.status;
         const bool goes_on = status.connected && view.restarts == status.restarts;
         if (view.connected != status.connected)
-            log_info("rig {} is {}", rig.name, view.connected ? "connected" : "gone");
+            tell_state(
+                rig, false,
+                fmt::format("rig {} is {}", rig.name, view.connected ? "connected" : "gone"));
         rig.relay_answers = view.refusal_passes && !view.refused.empty();
         if (view.connected) status.unreachable.clear();
         if (rig.relay_answers) {
-            if (warns && view.refused != status.unreachable) log_info("{}", view.refused);
+            if (warns && view.refused != status.unreachable) tell_state(rig, false, view.refused);
             status.unreachable = std::exchange(view.refused, {});
         }
         if (warns && !view.refused.empty() && view.refused != status.refused)
-            log_warning("{}", view.refused);
+            tell_state(rig, true, view.refused);
         rig.outages.note(view.connected, view.heard);
         status.outages = rig.outages.outages();
         status.outage_s = std::chrono::duration<double>(rig.outages.length(now)).count();
@@ -406,11 +592,12 @@ struct StageReceiver::Impl {
         const std::string rate_before = rate_warning(status);
         const bool had_tai_warning = status.connected && !tai_warning(status).empty();
         if (goes_on && view.sync.clock_steps > status.sync.clock_steps)
-            log_warning(
-                "rig {}: {}; its frames are, or were, off the other rigs' by as much: check that "
-                "its "
-                "clock follows the stage's, and verify the timing by light (vantage-calib sync)",
-                rig.name, clock_step_text(view.sync));
+            tell_state(
+                rig, true,
+                fmt::format("rig {}: {}; its frames are, or were, off the other rigs' by as much: "
+                            "check that its clock follows the stage's, and verify the timing by "
+                            "light (vantage-calib sync)",
+                            rig.name, clock_step_text(view.sync)));
         status.connected = view.connected;
         status.refused = std::move(view.refused);
         status.lost = view.lost;
@@ -422,14 +609,14 @@ struct StageReceiver::Impl {
         status.health = std::move(view.health);
         const std::string tai = status.connected ? tai_warning(status) : "";
         if (warns && !had_tai_warning && !tai.empty())
-            log_warning(
-                "rig {}: {}; until then latencies are unknown and its frames may miss their frame "
-                "sets",
-                rig.name, tai);
+            tell_state(rig, true,
+                       fmt::format("rig {}: {}; until then latencies are unknown and its frames "
+                                   "may miss their frame sets",
+                                   rig.name, tai));
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
         if (const std::string rate = rate_warning(status);
             warns && rate != rate_before && !rate.empty())
-            log_warning("rig {}: {}", rig.name, rate);
+            tell_state(rig, true, fmt::format("rig {}: {}", rig.name, rate));
         rig.report = std::move(view.report);
         complain(rig, rig.undecodable_frames + view.malformed, now);
     }
@@ -445,13 +632,23 @@ struct StageReceiver::Impl {
     const Purpose purpose;
     const FrameTap tap;
     zmq::context_t context;
+    /// By number; rigs are added and none is taken away. Only the I/O thread adds, while it holds
+    /// the mutex.
     std::vector<std::unique_ptr<Rig>> rigs;
+    /// Of rigs that were removed and added again; used by the I/O thread only.
+    std::vector<std::future<void>> ended_decoders;
 
     mutable std::mutex mutex;  ///< guards the members below and the rigs' status; never held
                                ///< during a socket call or a decode
     FrameSetAssembler assembler;
     TakeStarter starter;
-    std::uint64_t first_pulse = 0;  ///< 0: not announced yet; used by the I/O thread only
+    ClockStepWatch own_clock;  ///< used by the I/O thread only
+    const double stage_rate_hz;
+    std::vector<std::string> numbered_names;  ///< of all rigs, by number
+    std::vector<StageConfig::Rig> connected;  ///< the rigs of the newest update
+    std::optional<CurveKeys> host_keys;       ///< of the newest update
+    std::vector<StageUpdate> updates;         ///< not applied yet
+    std::uint64_t first_pulse = 0;            ///< 0: not announced yet; used by the I/O thread only
     std::uint64_t sets = 0;
     std::uint64_t complete_frame_sets = 0;
     std::optional<MonotonicTime> newest_frame_set;
@@ -480,12 +677,15 @@ std::optional<FrameSet> StageReceiver::next(std::chrono::nanoseconds timeout) {
 ReceiverStatus StageReceiver::status() const {
     const std::lock_guard lock(impl_->mutex);
     ReceiverStatus status;
-    for (const auto& rig : impl_->rigs) {
-        RigStatus& shown = status.rigs.emplace_back(rig->status);
-        shown.latency_ms = rig->latency_ms.summary();
-        shown.network_ms = rig->network_ms.summary();
-        shown.decode_ms = rig->decode_ms.summary();
-    }
+    const auto add = [&](const Impl::Rig& rig) {
+        RigStatus& shown = status.rigs.emplace_back(rig.status);
+        shown.latency_ms = rig.latency_ms.summary();
+        shown.network_ms = rig.network_ms.summary();
+        shown.decode_ms = rig.decode_ms.summary();
+    };
+    for (const std::size_t number : impl_->assembler.order()) add(*impl_->rigs[number]);
+    for (const auto& rig : impl_->rigs)
+        if (rig->status.is_removed) add(*rig);
     status.sets = impl_->sets;
     status.complete_frame_sets = impl_->complete_frame_sets;
     status.newest_frame_set = impl_->newest_frame_set;
@@ -493,12 +693,33 @@ ReceiverStatus StageReceiver::status() const {
     return status;
 }
 
+StageReceiver::Update::Update(std::unique_ptr<Content> content) : content_(std::move(content)) {}
+StageReceiver::Update::Update(Update&&) noexcept = default;
+StageReceiver::Update::~Update() = default;
+
+const std::vector<std::string>& StageReceiver::Update::names() const { return content_->names; }
+
+StageReceiver::Update StageReceiver::prepare(const StageConfig& stage) const {
+    const std::lock_guard lock(impl_->mutex);
+    return Update(std::make_unique<Update::Content>(impl_->update_to(stage)));
+}
+
+void StageReceiver::follow(Update update) {
+    {
+        const std::lock_guard lock(impl_->mutex);
+        impl_->note_newest(*update.content_);
+        impl_->updates.push_back(std::move(*update.content_));
+    }
+    impl_->wake.notify();
+}
+
 void StageReceiver::ask(std::string_view rig_name, bool streaming, std::uint32_t rate_divisor) {
     if (rate_divisor < 1 || rate_divisor > max_rate_divisor)
         fail("a rate divisor of {} is outside 1..{}", rate_divisor, max_rate_divisor);
-    Impl::Rig& rig = impl_->named(rig_name);
     {
         const std::lock_guard lock(impl_->mutex);
+        Impl::Rig& rig = impl_->named(rig_name);
+        if (rig.status.is_removed) return;
         rig.request.streaming = streaming;
         rig.request.rate_divisor = rate_divisor;
     }
@@ -506,6 +727,7 @@ void StageReceiver::ask(std::string_view rig_name, bool streaming, std::uint32_t
 }
 
 void StageReceiver::set_decoded(std::string_view rig_name, bool is_decoded) {
+    const std::lock_guard lock(impl_->mutex);
     impl_->named(rig_name).is_decoded = is_decoded;
 }
 

@@ -34,10 +34,34 @@ class StageReceiver {
     /// Waits for the next closed frame set, oldest first; empty after the timeout. A bounded number
     /// of frame sets waits; newer ones replace the oldest.
     std::optional<FrameSet> next(std::chrono::nanoseconds timeout);
+    /// The rigs of the stage in its order, and then those that reload() has removed.
     ReceiverStatus status() const;
 
-    /// Asks a rig to send nothing (streaming = false), or only every rate_divisor-th pulse. Throws
-    /// Error for an unknown rig or a divisor outside 1..max_rate_divisor.
+    /// A changed stage with the connections that it needs, for follow().
+    class Update {
+      public:
+        Update(Update&&) noexcept;
+        ~Update();
+        /// The rigs' names by their numbers. A rig keeps its number also while it is removed.
+        const std::vector<std::string>& names() const;
+
+      private:
+        friend class StageReceiver;
+        struct Content;
+        explicit Update(std::unique_ptr<Content> content);
+        std::unique_ptr<Content> content_;
+    };
+    /// Prepares to follow a changed stage. Throws Error if a key or an endpoint is invalid.
+    Update prepare(const StageConfig& stage) const;
+    /// Follows a changed stage: disconnects rigs that it names no longer, connects to new ones, and
+    /// connects anew where an endpoint or a key has changed. Other rigs are left as they are. The
+    /// counts of all rigs continue. The latency budget applies to the frame sets that open next;
+    /// the stage's rate stays. `update` is the last one that was prepared.
+    void follow(Update update);
+
+    /// Asks a rig to send nothing (streaming = false), or only every rate_divisor-th pulse. Has no
+    /// effect on a removed rig. Throws Error for an unknown rig or a divisor outside
+    /// 1..max_rate_divisor.
     void ask(std::string_view rig, bool streaming, std::uint32_t rate_divisor);
 
     /// Sets whether a rig's images are decoded, which is the default. If not, frame sets contain

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 namespace vantage {
@@ -36,6 +37,18 @@ StageStep::Result StageStep::hear(std::size_t rig, std::uint64_t trigger_index, 
 
 bool StageStep::active(std::size_t rig, MonotonicTime now) const {
     return rigs_[rig].heard && now - *rigs_[rig].heard <= options_.silence_limit;
+}
+
+std::chrono::nanoseconds StageStep::ahead_of_most(std::size_t rig, MonotonicTime now) const {
+    constexpr std::size_t fewest = 3;
+    std::vector<double> leads_ns;
+    for (std::size_t i = 0; i < rigs_.size(); ++i)
+        if (active(i, now)) leads_ns.push_back(rigs_[i].lead_ns);
+    if (leads_ns.size() < fewest) return std::chrono::nanoseconds(0);
+    const auto middle = leads_ns.begin() + static_cast<std::ptrdiff_t>((leads_ns.size() - 1) / 2);
+    std::nth_element(leads_ns.begin(), middle, leads_ns.end(), std::greater<>());
+    return std::chrono::nanoseconds(
+        static_cast<std::int64_t>(std::max(0.0, rigs_[rig].lead_ns - *middle)));
 }
 
 StageStep::Verdict StageStep::verdict(std::size_t rig) const {

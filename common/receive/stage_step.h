@@ -41,8 +41,16 @@ class StageStep {
     Result hear(std::size_t rig, std::uint64_t trigger_index, bool new_session,
                 MonotonicTime arrival);
 
+    /// Appends a rig, which has not sent a frame yet.
+    void add_rig() { rigs_.emplace_back(); }
+
     /// Initially true for every rig.
     void set_at_stage_rate(std::size_t rig, bool is_at_it) { rigs_[rig].at_stage_rate = is_at_it; }
+
+    /// By how much the rig's pulses come earlier than those of most rigs that are active; 0 for a
+    /// rig that is not ahead, or if there are fewer than three, since two cannot outvote each
+    /// other.
+    std::chrono::nanoseconds ahead_of_most(std::size_t rig, MonotonicTime now) const;
 
     /// Whether a frame came from the rig within the silence limit.
     bool active(std::size_t rig, MonotonicTime now) const;

@@ -29,7 +29,9 @@ std::vector<std::size_t> TakeStarter::laggards(const std::vector<Rig>& rigs, Mon
 std::optional<std::uint64_t> TakeStarter::find_first_pulse(const std::vector<Rig>& rigs,
                                                            TaiTime tai, MonotonicTime now) {
     for (const Rig& rig : rigs)
-        if (rig.connected && rig.sync.first_pulse != 0) return rig.sync.first_pulse;
+        if (rig.connected && rig.sync.first_pulse != 0 &&
+            rig.sync.first_pulse <= grid_.index_at_or_before(tai + latest_start))
+            return rig.sync.first_pulse;
     if (std::none_of(rigs.begin(), rigs.end(), is_ready)) {
         first_ready_.reset();
         return std::nullopt;

@@ -27,6 +27,9 @@ class TakeStarter {
     static constexpr std::chrono::seconds longest_wait{15};
     /// The time from the announcement to the first pulse: several heartbeats.
     static constexpr std::chrono::seconds notice{1};
+    /// A first pulse that a rig reports and that lies further ahead is not believed: the stage
+    /// would wait for it. Clocks may differ by the TAI offset, 37 s.
+    static constexpr std::chrono::seconds latest_start{60};
     /// A rig that is not ready this long after the announcement is reported; rigs become ready one
     /// after the other.
     static constexpr std::chrono::seconds ready_patience{3};

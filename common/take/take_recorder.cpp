@@ -90,6 +90,8 @@ double free_disk_mb(const std::filesystem::path& folder) {
 
 struct TakeRecorder::Take {
     std::filesystem::path path;
+    Stage stage;
+    std::vector<std::string> names;  ///< of the tracks
     std::optional<TakeWriter> writer;
     nlohmann::ordered_json calibrations;       ///< from the rigs' first frames, for people
     std::vector<std::optional<TakeRig>> rigs;  ///< from the first frame of each
@@ -116,6 +118,9 @@ std::size_t TakeRecorder::Item::bytes() const {
 }
 
 TakeRecorder::TakeRecorder(Settings settings) : settings_(std::move(settings)) {
+    stage_ = {settings_.rigs, {}, settings_.show, settings_.attachments};
+    for (std::size_t number = 0; number < stage_.rigs.size(); ++number)
+        stage_.recorded.push_back(number);
     for (const std::string& rig : settings_.rigs) state_.rigs.push_back({rig, 0, 0, 0});
     thread_ = std::thread([this] { run(); });
 }
@@ -128,6 +133,11 @@ TakeRecorder::~TakeRecorder() {
     }
     woken_.notify_all();
     thread_.join();
+}
+
+void TakeRecorder::change_stage(Stage stage) {
+    const std::lock_guard lock(mutex_);
+    stage_ = std::move(stage);
 }
 
 void TakeRecorder::offer(const ArrivedFrame& frame) {
@@ -170,22 +180,45 @@ void TakeRecorder::push(Item item) {
     queue_.push_back(std::move(item));
     while (queued_bytes_ > most_queued_bytes_ && queue_.size() > 1) {
         const Item& oldest = queue_.front();
-        if (oldest.frame) ++state_.rigs[oldest.frame->rig].dropped;
+        if (oldest.frame) ++state_.rigs[row_of(oldest.frame->rig)].dropped;
         if (oldest.sound) state_.sound_dropped += static_cast<std::uint64_t>(oldest.sound->count());
         queued_bytes_ -= oldest.bytes();
         queue_.pop_front();
     }
 }
 
-/// The oldest items, with at most a bounded number of frames per rig. Precondition: mutex_ is held.
+/// The row of a rig in the state, which a rig without a track gets with its first frame.
+/// Precondition: mutex_ is held.
+std::size_t TakeRecorder::row_of(std::size_t rig) {
+    const auto [place, is_new] = rows_.try_emplace(rig, state_.rigs.size());
+    if (is_new) {
+        const std::string name = rig < stage_.rigs.size() ? stage_.rigs[rig] : "?";
+        log_warning(
+            "{} does not have the frames of rig {}, which was not in the stage when it began; end "
+            "the take and begin another one to record the rig",
+            state_.path, name);
+        state_.rigs.push_back({name, 0, 0, 0});
+    }
+    return place->second;
+}
+
+/// The oldest items, with at most a bounded number of frames per rig; frames name their track in
+/// place of their rig. Precondition: mutex_ is held.
 std::vector<TakeRecorder::Item> TakeRecorder::pop_some() {
     std::vector<Item> items;
-    std::vector<std::size_t> frames(settings_.rigs.size());
+    std::vector<std::size_t> frames(tracks_);
     while (!queue_.empty()) {
         Item& first = queue_.front();
-        if (first.frame && ++frames[first.frame->rig] > most_frames_a_rig) break;
+        const std::size_t row = first.frame ? row_of(first.frame->rig) : 0;
+        const bool has_track = !first.frame || row < tracks_;
+        if (first.frame && has_track && ++frames[row] > most_frames_a_rig) break;
         queued_bytes_ -= first.bytes();
-        items.push_back(std::move(first));
+        if (has_track) {
+            if (first.frame) first.frame->rig = row;
+            items.push_back(std::move(first));
+        } else {
+            ++state_.rigs[row].refused;
+        }
         queue_.pop_front();
     }
     return items;
@@ -210,7 +243,12 @@ void TakeRecorder::begin(const std::filesystem::path& path) {
         state_.path = path.string();
         state_.takes = takes;
         state_.has_sound = settings_.has_sound;
-        for (const std::string& rig : settings_.rigs) state_.rigs.push_back({rig, 0, 0, 0});
+        rows_.clear();
+        for (const std::size_t rig : stage_.recorded) {
+            rows_.emplace(rig, state_.rigs.size());
+            state_.rigs.push_back({stage_.rigs[rig], 0, 0, 0});
+        }
+        tracks_ = state_.rigs.size();
     }
     woken_.notify_all();
 }
@@ -262,9 +300,12 @@ void TakeRecorder::run() {
             if (begin_) {
                 take.emplace();
                 take->path = *std::exchange(begin_, std::nullopt);
-                take->rigs.resize(settings_.rigs.size());
-                take->storers.resize(settings_.rigs.size());
-                take->told.resize(settings_.rigs.size());
+                take->stage = stage_;
+                for (std::size_t track = 0; track < tracks_; ++track)
+                    take->names.push_back(state_.rigs[track].name);
+                take->rigs.resize(tracks_);
+                take->storers.resize(tracks_);
+                take->told.resize(tracks_);
             }
             if (take) items = pop_some();
             is_over = take && items.empty() && is_ending_;
@@ -327,7 +368,7 @@ void TakeRecorder::look_at_first(Take& take, const Item& item) {
     const FrameHead head = decode_frame_head(frame.packed->header);
     if (!take.rigs[frame.rig]) {
         take.rigs[frame.rig] = take_rig_of(head);
-        take.calibrations[settings_.rigs[frame.rig]] = calibration_json(head.frame);
+        take.calibrations[take.names[frame.rig]] = calibration_json(head.frame);
         // Disparity takes about as much space here as on the wire.
         take.bytes_a_pulse += static_cast<double>(item.bytes());
     }
@@ -371,16 +412,16 @@ void TakeRecorder::open(Take& take) {
     facts.program = settings_.program;
     facts.tai_offset_s = take.tai_offset_s;
     facts.timecode = TimecodeClock(settings_.pulse_rate_hz).at(*take.origin, take.tai_offset_s);
-    facts.show = settings_.show;
+    facts.show = take.stage.show;
     facts.show["calibrations"] = take.calibrations;
-    facts.attachments = settings_.attachments;
+    facts.attachments = take.stage.attachments;
     facts.has_sound = settings_.has_sound;
     // A rig that comes later is assumed to send the same as the first one.
     const auto present = std::find_if(take.rigs.begin(), take.rigs.end(),
                                       [](const auto& rig) { return rig.has_value(); });
     for (std::size_t i = 0; i < take.rigs.size(); ++i) {
         facts.rigs.push_back(take.rigs[i].value_or(**present));
-        facts.rigs.back().name = settings_.rigs[i];
+        facts.rigs.back().name = take.names[i];
     }
     take.writer.emplace(take.path, facts);
     for (std::size_t i = 0; i < facts.rigs.size(); ++i)
@@ -474,8 +515,7 @@ void TakeRecorder::write(Take& take, const ArrivedFrame& frame, StoredFrame stor
 
 void TakeRecorder::refuse(Take& take, const ArrivedFrame& frame, const std::string& why) {
     if (std::exchange(take.told[frame.rig], why) != why)
-        log_warning("a frame of rig {} is missing from the take: {}", settings_.rigs[frame.rig],
-                    why);
+        log_warning("a frame of rig {} is missing from the take: {}", take.names[frame.rig], why);
     const std::lock_guard lock(mutex_);
     ++state_.rigs[frame.rig].refused;
 }

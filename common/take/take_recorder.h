@@ -5,6 +5,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -75,11 +76,23 @@ class TakeRecorder {
         bool may_be_empty = false;  ///< whether a take without frames is no failure
         std::function<double(const std::filesystem::path&)> disk_mb_s = measure_disk_mb_s;
     };
+    /// The part of the settings that follows a changed stage.
+    struct Stage {
+        std::vector<std::string> rigs;      ///< names by number, see ArrivedFrame::rig
+        std::vector<std::size_t> recorded;  ///< numbers of the rigs that takes have, in their order
+        nlohmann::ordered_json show;
+        std::vector<TakeAttachment> attachments = {};
+    };
+
     explicit TakeRecorder(Settings settings);
     /// Ends the current take.
     ~TakeRecorder();
     TakeRecorder(const TakeRecorder&) = delete;
     TakeRecorder& operator=(const TakeRecorder&) = delete;
+
+    /// Uses this stage for takes that begin from now on. A current take keeps its rigs: frames of
+    /// others are refused and counted. Numbers of rigs keep their names.
+    void change_stage(Stage stage);
 
     /// Never blocks.
     void offer(const ArrivedFrame& frame);
@@ -118,6 +131,7 @@ class TakeRecorder {
 
     void run();
     void push(Item item);
+    std::size_t row_of(std::size_t rig);
     void offer_with_pre_roll(Item item);
     std::vector<Item> pop_some();
     void work(Take& take, std::vector<Item> items);
@@ -132,13 +146,17 @@ class TakeRecorder {
     void close(Take& take);
     void note(const Take& take);
 
-    const Settings settings_;
+    const Settings settings_;   ///< `stage_` replaces its rigs, its show and its attachments
     mutable std::mutex mutex_;  ///< guards the members below; never held during a write or codec
     std::condition_variable woken_, idle_;
     std::deque<Item> queue_, pre_roll_;
     std::size_t queued_bytes_ = 0, pre_roll_bytes_ = 0, most_queued_bytes_ = 0;
     std::optional<std::filesystem::path> begin_;  ///< requested, but not begun yet
     bool is_taking_ = false, is_ending_ = false, is_stopping_ = false;
+    Stage stage_;
+    /// Rows of state_.rigs by the rigs' numbers; the first ones are the take's tracks.
+    std::map<std::size_t, std::size_t> rows_;
+    std::size_t tracks_ = 0;
     TakeState state_;
     std::thread thread_;
 };

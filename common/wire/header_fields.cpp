@@ -23,6 +23,13 @@ void check_schema_version(std::string_view what, std::uint32_t version) {
             what, version, wire_schema_version);
 }
 
+void check_measurement(std::string_view where, double value) {
+    if (!std::isfinite(value)) fail("a rig's {} holds {}, which is not finite", where, value);
+    if (std::abs(value) > max_measurement)
+        fail("a rig's {} holds {}, which is beyond the limit of {:g}", where, value,
+             max_measurement);
+}
+
 void check_name(std::string_view what, std::string_view name) {
     const bool fits = !name.empty() && name.size() <= max_name_chars &&
                       std::all_of(name.begin(), name.end(), [](char c) {
@@ -89,7 +96,7 @@ RigSync from_wire(const wire::Sync& sync) {
          {static_cast<double>(sync.lateness_p50_us()), static_cast<double>(sync.lateness_p99_us()),
           static_cast<double>(sync.lateness_max_us()), sync.clock_ppm(), sync.clock_step_ms(),
           sync.ptp_offset_ns(), sync.ptp_path_delay_ns(), sync.rate_hz()})
-        if (!std::isfinite(value)) fail("a rig's sync state holds {}, which is not finite", value);
+        check_measurement("sync state", value);
     // The range of PulseGrid.
     if (sync.rate_hz() != 0 && (sync.rate_hz() < 0.001 || sync.rate_hz() > 1e6))
         fail("a rig's rate of {} Hz is outside 0.001..1000000", sync.rate_hz());

@@ -30,6 +30,10 @@ inline constexpr std::size_t max_part_bytes =
 /// The length of rig names and calibration ids.
 inline constexpr std::size_t max_name_chars = 64;
 
+/// The largest magnitude of a number that a rig reports about itself. A clock that was never set is
+/// 1.8e18 ns behind.
+inline constexpr double max_measurement = 1e19;
+
 /// Up to this value an index is exact as a double, and index times period cannot overflow.
 inline constexpr std::uint64_t max_trigger_index = std::uint64_t{1} << 53;
 

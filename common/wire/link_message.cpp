@@ -45,7 +45,7 @@ void to_wire(const RigHealth& health, wire::Health& out) {
 RigHealth from_wire(const wire::Health& in) {
     for (const float value :
          {in.temperature_c(), in.captured_hz(), in.published_hz(), in.calibration_row_rms_px()})
-        if (!std::isfinite(value)) fail("a rig's health holds {}, which is not finite", value);
+        check_measurement("health", value);
     if (!in.calibration_id().empty()) check_name("calibration", in.calibration_id());
     const std::string& date = in.calibration_date();
     if (date.size() > max_date_chars)

@@ -14,8 +14,9 @@
 namespace vantage {
 
 void run_live_session(const LiveOptions& options) {
-    // It must exist before the receiver's threads, so that it receives the signals.
+    // They must exist before the receiver's threads, so that they receive the signals.
     StopSignal stop;
+    ReloadSignal hang_up;
     const StageConfig stage = load_stage_config(options.stage);
     if (!stage.timecode_zone.empty()) use_time_zone(stage.timecode_zone);
     FlightStore flights = options.show.flight_store(options.stage);
@@ -65,6 +66,9 @@ void run_live_session(const LiveOptions& options) {
                                 if (options.while_waiting) options.while_waiting();
                             });
                         }};
+    StageReload reload(options.stage, stage, receiver, takes, show);
+    session.stage = &reload;
+    session.hang_up = &hang_up;
     session.run(stop);
 }
 

@@ -257,7 +257,8 @@ struct DeskState {
     std::string question;            ///< asks for a second key press; empty: none
     std::optional<double> behind_s;  ///< distance to live while the past is shown
     std::string typed;               ///< the command line while it is open; empty: closed
-    std::string notice;              ///< why replay refused a command; empty: none
+    std::string notice;              ///< why replay refused a command, or the last reload of the
+                                     ///< stage file; empty: none
     DeskReplay replay;
     std::optional<DeskTime> time;     ///< nothing: there is no past to show
     double picture_rate_hz = 0;       ///< new frames per second

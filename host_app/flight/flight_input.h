@@ -55,6 +55,7 @@ struct ToggleSourceMap {};
 struct ToggleTake {};
 struct SaveBackground {};
 struct LearnBackground {};
+struct ReloadStage {};
 struct ToggleOutput {
     int number = 0;  ///< from 1
 };
@@ -79,7 +80,7 @@ using CameraCommand =
 using PictureCommand = std::variant<command::NextSynthesiser, command::ToggleSourceMap>;
 using SessionCommand =
     std::variant<command::ToggleTake, command::SaveBackground, command::LearnBackground,
-                 command::ToggleOutput, command::PickPivot, command::CueTime>;
+                 command::ReloadStage, command::ToggleOutput, command::PickPivot, command::CueTime>;
 
 /// A command of an operator, grouped by the class that executes it. A new command needs its struct
 /// in one of the groups, its row in the table (control/table) and its handler.

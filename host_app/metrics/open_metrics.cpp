@@ -87,9 +87,13 @@ void write_frame_sets(const LiveReport& report, MetricText& text) {
 }
 
 void write_rigs(const LiveReport& report, MetricText& text) {
-    text.gauge("rig_up", "1 while the rig is connected.");
+    text.counter("stage_reloads", "Requests to reload the stage file, by result.");
+    text.sample(number(report.reloads.done), {{"result", "done"}});
+    text.sample(number(report.reloads.refused), {{"result", "refused"}});
+    text.gauge("rig_up", "1 while the rig is connected; none for a removed rig.");
     for (const RigAccount& rig : report.rigs)
-        text.sample(rig.status.connected ? 1 : 0, {{"rig", rig.status.rig}});
+        if (!rig.status.is_removed)
+            text.sample(rig.status.connected ? 1 : 0, {{"rig", rig.status.rig}});
     const auto write_frames = [&](bool by_old_keys) {
         for (const RigAccount& rig : report.rigs)
             for (const CounterGroup& group : counters_of(rig))

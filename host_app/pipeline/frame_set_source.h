@@ -76,6 +76,9 @@ class FrameSetViews {
     /// `updates_gains`: estimate the gains from this frame set too. Frame sets of the replay buffer
     /// did so when they were live.
     std::vector<DepthView> views_of(const FrameSet& set, bool updates_gains);
+    void set_colours(std::map<std::string, ColourCorrection> colours) {
+        colours_ = std::move(colours);
+    }
     std::map<std::string, GainCompensation::Rig> gains() const { return gains_.rigs(); }
 
   private:

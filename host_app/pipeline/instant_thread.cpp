@@ -184,6 +184,11 @@ void InstantThread::learn_background_anew() {
     learns_anew_ = true;
 }
 
+void InstantThread::set_colours(std::map<std::string, ColourCorrection> colours) {
+    const std::lock_guard lock(mutex_);
+    new_colours_ = std::move(colours);
+}
+
 std::future<Background> InstantThread::background() {
     const std::lock_guard lock(mutex_);
     return background_requests_.emplace_back().get_future();
@@ -270,6 +275,7 @@ bool InstantThread::Loop::begin_round(InstantRequest& request, Maker& maker) {
     owner_.round_begun_.notify_all();
     request = owner_.request_;
     maker = owner_.maker_;
+    if (owner_.new_colours_) views_.set_colours(*std::exchange(owner_.new_colours_, std::nullopt));
     return true;
 }
 
@@ -406,7 +412,10 @@ void InstantThread::Loop::prepare_set(FrameSetSource::Past next, const InstantRe
     last_pulse_ = pulse;
     const std::vector<DepthView> views = views_.views_of(next.set, is_counted);
     // While the past is shown, the camera says nothing about the rigs that are needed live.
-    if (is_live) ask_for_rigs(views, request);
+    if (is_live) {
+        demand_.forget_others(next.set);
+        ask_for_rigs(views, request);
+    }
     const auto prepare = [&] {
         TraceSpan taking("take views");
         preparer_->take(views, std::min(dt_s, max_gap_s));

@@ -83,6 +83,8 @@ class InstantThread {
     void request(const InstantRequest& request);
     /// Learns the background from nothing, beginning with the next instant.
     void learn_background_anew();
+    /// Corrects the rigs' colours by these from now on, in place of Settings::colours.
+    void set_colours(std::map<std::string, ColourCorrection> colours);
     /// Returns the background as learnt until now. The future holds an Error if there is none.
     std::future<Background> background();
     /// Returns the newest instant; null before the first. Throws what the feed threw.
@@ -126,6 +128,7 @@ class InstantThread {
     Maker maker_;
     InstantRequest request_;
     bool learns_anew_ = false;
+    std::optional<std::map<std::string, ColourCorrection>> new_colours_;  ///< not taken yet
     std::vector<std::promise<Background>> background_requests_;
     std::shared_ptr<const ReadyInstant> newest_;
     std::exception_ptr failure_;  ///< what the feed threw

@@ -14,6 +14,13 @@ void RigDemand::see(std::span<const DepthView> views) {
     }
 }
 
+void RigDemand::forget_others(const FrameSet& set) {
+    std::erase_if(rigs_, [&](const auto& rig) {
+        return std::none_of(set.slots.begin(), set.slots.end(),
+                            [&](const FrameSet::Slot& slot) { return slot.rig == rig.first; });
+    });
+}
+
 std::vector<RigDemand::Change> RigDemand::update(std::span<const VirtualView> targets,
                                                  MonotonicTime now) {
     for (auto& [name, rig] : rigs_)

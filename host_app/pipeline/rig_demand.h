@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/base/time/time.h"
+#include "common/receive/frame_set.h"
 #include "host_app/views/depth_view.h"
 #include "host_app/views/surface_samples.h"
 #include "host_app/views/virtual_view.h"
@@ -27,6 +28,8 @@ class RigDemand {
 
     /// Updates the surfaces that the rigs show.
     void see(std::span<const DepthView> views);
+    /// Forgets the rigs that a frame set has no slot for: they are removed from the stage.
+    void forget_others(const FrameSet& set);
 
     struct Change {
         std::string rig;

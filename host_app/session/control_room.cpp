@@ -94,6 +94,7 @@ void ControlRoom::show_lamps(const LiveShow& show, const std::optional<TakeState
         lamps.background =
             lamps.background < 0 ? background.known : std::min(lamps.background, background.known);
     lamps.saved_background = saved_background;
+    lamps.stage = show.reloads().sentence;
     const Tally::State tally = tally_.state();
     lamps.programme_tally = tally.programme;
     lamps.preview_tally = tally.preview;

@@ -284,6 +284,7 @@ LiveReport LiveShow::report() const {
                 state.picture->job.camera.focus_m);
         if (state.picture->sources) report.source_map = state.picture->sources->shares;
     }
+    report.reloads = reloads_;
     if (settings_.sound) report.sound = settings_.sound->state();
     report.outputs = outputs_.states();
     for (const OutputState& output : report.outputs)

@@ -81,6 +81,9 @@ class LiveShow {
     LiveReport report() const;
 
     const LiveSettings& settings() const { return settings_; }
+    /// What became of the reloads of the stage file. Used on the session's thread.
+    void note_reload(const StageReloads& reloads) { reloads_ = reloads; }
+    const StageReloads& reloads() const { return reloads_; }
     OutputSupervisor& outputs() { return outputs_; }
     const OutputSupervisor& outputs() const { return outputs_; }
     FlightControls& controls() { return controls_; }
@@ -98,6 +101,9 @@ class LiveShow {
     std::shared_ptr<const ReadyInstant> newest() const { return instants_.newest(); }
     // See InstantThread.
     void learn_background_anew() { instants_.learn_background_anew(); }
+    void set_colours(std::map<std::string, ColourCorrection> colours) {
+        instants_.set_colours(std::move(colours));
+    }
     std::future<Background> background() { return instants_.background(); }
 
   private:
@@ -117,6 +123,7 @@ class LiveShow {
     OutputSupervisor outputs_;
     Programme programme_;
     std::optional<MonotonicTime> framing_since_;  ///< used on the programme's thread
+    StageReloads reloads_;
     std::optional<ReceiverStatus> last_status_;
     std::optional<SignalState> last_signal_;
 };

@@ -172,7 +172,14 @@ void ShowSession::follow_requests(OutputSwitch& outputs, BackgroundSaver& backgr
         if (takes && std::holds_alternative<command::ToggleTake>(each)) takes->toggle();
         if (std::holds_alternative<command::LearnBackground>(each)) show.learn_background_anew();
         if (std::holds_alternative<command::SaveBackground>(each)) backgrounds.save();
+        if (std::holds_alternative<command::ReloadStage>(each)) {
+            if (stage)
+                stage->reload();
+            else
+                log_warning("a take is shown: there is no stage file to reload");
+        }
     }
+    if (stage && hang_up) stage->follow(*hang_up);
     show_metrics(room, now);
     const bool is_new = room.has_lamps() && air.follow(show, report_take(), now);
     room.show_lamps(show, takes ? std::optional(takes->state()) : std::nullopt,

@@ -10,6 +10,7 @@
 #include "host_app/session/control_room.h"
 #include "host_app/session/live_show.h"
 #include "host_app/session/options/show_options.h"
+#include "host_app/session/stage_reload.h"
 #include "host_app/session/web_feed.h"
 #include "host_app/takes/take_control.h"
 
@@ -31,7 +32,9 @@ struct ShowSession {
     /// Without a window: waits for the first instant, and calls `while_waiting` repeatedly. Returns
     /// false if the program is told to stop.
     std::function<bool(StopSignal&, const std::function<void()>& while_waiting)> wait;
-    std::uint64_t told_notices = 0;  ///< replay notices in the log so far
+    StageReload* stage = nullptr;     ///< null: the show has no stage file
+    ReloadSignal* hang_up = nullptr;  ///< null: no signal reloads the stage
+    std::uint64_t told_notices = 0;   ///< replay notices in the log so far
     std::optional<MetricsServer> metrics = {};
     MonotonicTime metrics_shown{};
     std::optional<WebFeed> web = {};

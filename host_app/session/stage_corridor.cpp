@@ -1,5 +1,6 @@
 #include "host_app/session/stage_corridor.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace vantage {
@@ -24,7 +25,12 @@ bool is_same(const CorridorRig& a, const CorridorRig& b) {
 void StageCorridor::update(const FrameSet& set) {
     if (!extent_ || set.complete == updated_) return;
     updated_ = set.complete;
-    bool changed = false;
+    // Rigs without a slot are removed from the stage.
+    bool changed =
+        std::erase_if(rigs_, [&](const auto& rig) {
+            return std::none_of(set.slots.begin(), set.slots.end(),
+                                [&](const FrameSet::Slot& slot) { return slot.rig == rig.first; });
+        }) > 0;
     for (const FrameSet::Slot& slot : set.slots) {
         const auto known = rigs_.find(slot.rig);
         if (slot.frame) {

@@ -1,5 +1,8 @@
 #include "host_app/takes/take_control.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "common/base/cli/version.h"
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
@@ -12,18 +15,24 @@ namespace {
 
 constexpr std::size_t most_attached_bytes = 1 << 20;
 
+std::vector<TakeAttachment> attachments_of(const StageConfig& stage,
+                                           const std::filesystem::path& stage_file) {
+    std::vector<TakeAttachment> files;
+    files.push_back(
+        {stage_attachment, "application/toml", read_file(stage_file, most_attached_bytes)});
+    for (const StageConfig::Rig& rig : stage.rigs)
+        if (!rig.colour.empty())
+            files.push_back({rig.name + ".colour.toml", "application/toml",
+                             read_file(rig.colour, most_attached_bytes)});
+    return files;
+}
+
 TakeRecorder::Settings recorder_settings(const StageConfig& stage,
                                          const std::filesystem::path& stage_file,
                                          std::chrono::nanoseconds pre_roll, bool has_sound) {
     TakeRecorder::Settings settings;
-    settings.attachments.push_back(
-        {stage_attachment, "application/toml", read_file(stage_file, most_attached_bytes)});
-    for (const StageConfig::Rig& rig : stage.rigs) {
-        settings.rigs.push_back(rig.name);
-        if (rig.colour.empty()) continue;
-        settings.attachments.push_back({rig.name + ".colour.toml", "application/toml",
-                                        read_file(rig.colour, most_attached_bytes)});
-    }
+    for (const StageConfig::Rig& rig : stage.rigs) settings.rigs.push_back(rig.name);
+    settings.attachments = attachments_of(stage, stage_file);
     settings.pulse_rate_hz = stage.rate_hz;
     settings.program = fmt::format("vantage {}", version());
     settings.show = to_json(take_show_of(stage));
@@ -96,6 +105,24 @@ void TakeControl::ask_all() {
     const std::lock_guard lock(mutex_);
     const bool all = wants_all();
     for (const auto& [rig, streaming] : requests_) ask_(rig, streaming || all);
+}
+
+void TakeControl::change_stage(const StageConfig& stage, const std::filesystem::path& stage_file,
+                               std::vector<std::string> rigs) {
+    TakeRecorder::Stage changed{
+        std::move(rigs), {}, to_json(take_show_of(stage)), attachments_of(stage, stage_file)};
+    const auto in_stage = [&](const std::string& name) {
+        return std::any_of(stage.rigs.begin(), stage.rigs.end(),
+                           [&](const StageConfig::Rig& rig) { return rig.name == name; });
+    };
+    for (const StageConfig::Rig& rig : stage.rigs)
+        changed.recorded.push_back(static_cast<std::size_t>(
+            std::find(changed.rigs.begin(), changed.rigs.end(), rig.name) - changed.rigs.begin()));
+    recorder_.change_stage(std::move(changed));
+    const std::lock_guard lock(mutex_);
+    // A rig that is added again sends from the start.
+    std::erase_if(requests_, [&](const auto& request) { return !in_stage(request.first); });
+    for (const StageConfig::Rig& rig : stage.rigs) requests_.try_emplace(rig.name, true);
 }
 
 void TakeControl::begin(const std::filesystem::path& path) {

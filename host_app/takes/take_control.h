@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <vector>
 
 #include "common/config/stage_config.h"
 #include "common/take/take_recorder.h"
@@ -34,6 +35,11 @@ class TakeControl {
     std::function<void(const SoundBlock&)> sound_tap();
     /// Records the camera of every tick. This object must outlive it.
     std::unique_ptr<PictureSink> camera_sink();
+
+    /// Uses a changed stage for takes that begin from now on. `rigs` are the rigs' names by their
+    /// numbers (StageReceiver::numbers_after()). Throws Error if a file cannot be read.
+    void change_stage(const StageConfig& stage, const std::filesystem::path& stage_file,
+                      std::vector<std::string> rigs);
 
     /// Throws Error like TakeRecorder::begin().
     void begin(const std::filesystem::path& path);

@@ -18,7 +18,7 @@
 namespace vantage {
 namespace {
 
-std::atomic<std::uint64_t> contexts_made = 0, contexts_lost = 0;
+std::atomic<std::uint64_t> contexts_made = 0, contexts_lost = 0, contexts_hung = 0;
 
 /// In the order of creation, from 1.
 struct Contexts {
@@ -31,12 +31,16 @@ Contexts& contexts() {
     return all;
 }
 
-bool is_lost() {
-    if (contexts_lost == 0) return false;
+/// Whether the current context is one of the first `count`.
+bool is_one_of(std::uint64_t count) {
+    if (count == 0) return false;
     const std::lock_guard lock(contexts().mutex);
     const auto found = contexts().numbers.find(eglGetCurrentContext());
-    return found != contexts().numbers.end() && found->second <= contexts_lost;
+    return found != contexts().numbers.end() && found->second <= count;
 }
+
+bool is_lost() { return is_one_of(contexts_lost); }
+bool hangs() { return is_one_of(contexts_hung); }
 
 GLenum reset_status() { return is_lost() ? GL_UNKNOWN_CONTEXT_RESET_KHR : GL_NO_ERROR; }
 
@@ -48,6 +52,8 @@ Function* real(const char* name) {
 }  // namespace
 
 void reset_gpu() { contexts_lost = contexts_made.load(); }
+
+void hang_gpu() { contexts_hung = contexts_made.load(); }
 
 }  // namespace vantage
 
@@ -76,6 +82,18 @@ EGLBoolean eglDestroyContext(EGLDisplay display, EGLContext context) {
         vantage::contexts().numbers.erase(context);
     }
     return destroy(display, context);
+}
+
+GLenum glClientWaitSync(GLsync sync, GLbitfield flags, GLuint64 timeout) {
+    static const auto wait = vantage::real<decltype(glClientWaitSync)>("glClientWaitSync");
+    return vantage::hangs() ? GL_TIMEOUT_EXPIRED : wait(sync, flags, timeout);
+}
+
+const GLubyte* glGetString(GLenum name) {
+    static const auto get = vantage::real<decltype(glGetString)>("glGetString");
+    if (name == GL_RENDERER && vantage::hangs())
+        return reinterpret_cast<const GLubyte*>("a GPU that hangs");
+    return get(name);
 }
 
 void glDrawArrays(GLenum mode, GLint first, GLsizei count) {

@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/gl/context/context_loss.h"
 #include "common/gl/context/driver_lock.h"
+#include "common/gl/context/limits.h"
 
 namespace vantage {
 
@@ -48,11 +49,15 @@ void Fence::wait(const char* doing, std::chrono::nanoseconds limit) const {
         if (reached_within(slice)) return;
         waited += slice;
         require_context(doing);
-        if (waited >= limit)
+        const bool is_over = limit == no_limit
+                                 ? waited >= hung_after && !GlInfo::query().is_software
+                                 : waited >= limit;
+        // A program that was stopped meanwhile has not waited.
+        if (is_over && !reached())
             throw ContextLost(fmt::format(
                 "the GPU has not finished its work within {} ms while {}: it hangs, or its driver "
                 "has reset it",
-                std::chrono::duration_cast<std::chrono::milliseconds>(limit).count(), doing));
+                std::chrono::duration_cast<std::chrono::milliseconds>(waited).count(), doing));
     }
 }
 

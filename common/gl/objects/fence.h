@@ -23,7 +23,10 @@ class Fence {
     /// Waits up to `time` for the GPU; returns whether it reached the point. Throws Error if the
     /// GPU is lost.
     bool reached_within(std::chrono::nanoseconds time) const;
-    /// No limit for wait().
+    /// A GPU that works on something for longer than this hangs.
+    static constexpr std::chrono::seconds hung_after{10};
+    /// No limit for wait() but hung_after, and none at all for a software renderer, which is slow
+    /// and never hangs.
     static constexpr std::chrono::nanoseconds no_limit = std::chrono::nanoseconds::max();
 
     /// Waits for the GPU. Throws ContextLost with `doing` if the GPU was reset or has not reached

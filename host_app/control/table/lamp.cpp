@@ -72,6 +72,8 @@ constexpr Lamp lamp_table_rows[] = {
     {"saved_background", "file to which the background was saved last",
      [](const Show& s) { return LampValue(s.saved_background); }, ControlPage::control,
      "saved_set"},  // old name
+    {"stage", "result of the last reload of the stage file",
+     [](const Show& s) { return LampValue(s.stage); }},
     {"film", "a film is being recorded", [](const Show& s) { return LampValue(s.film); }},
     {"programme", "tally: the mixer has this camera on air",
      [](const Show& s) { return LampValue(s.programme_tally); }},

@@ -24,6 +24,7 @@ struct ShowLamps {
     bool take = false, film = false;
     double background = -1;  ///< known share 0..1, of the rig with the least; -1: none is learnt
     std::string saved_background;
+    std::string stage;  ///< result of the last reload of the stage file; empty: none
     bool programme_tally = false, preview_tally = false;
     bool input_flies_preview = false;
     double fly_to_preview = -1;   ///< progress 0..1; -1: no such flight

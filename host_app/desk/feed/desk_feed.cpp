@@ -24,8 +24,15 @@ constexpr double min_path_step_m = 0.02;
 constexpr int move_steps = 96;
 /// How long a notice of replay is shown.
 constexpr std::chrono::seconds notice_duration{5};
+/// How long the result of a reload of the stage file is shown: it may be a long sentence.
+constexpr std::chrono::seconds reload_notice_duration{12};
 /// Radius of the corridor's map, in distances of the farthest rig from the pivot.
 constexpr double corridor_reach = 1.3;
+
+std::string reload_notice(const StageReloads& reloads, MonotonicTime now) {
+    const bool is_shown = !reloads.sentence.empty() && now - reloads.when < reload_notice_duration;
+    return is_shown ? reloads.sentence : "";
+}
 
 bool is_at_rig(const std::string& step) {
     return step == "capture" || step == "rectify" || step == "match" || step == "pack";
@@ -164,7 +171,8 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
         if (rig.background) rig_pictures_.take_mask(rig.status.rig, rig.background->matte);
 
     state_.rigs.clear();
-    for (const RigAccount& rig : report.rigs) state_.rigs.push_back(rig_of(rig, set, now));
+    for (const RigAccount& rig : report.rigs)
+        if (!rig.status.is_removed) state_.rigs.push_back(rig_of(rig, set, now));
     if (!show.settings().take) {
         const auto date = std::chrono::system_clock::now();
         state_.synchronisation = sync_words(show.settings().sync_proof, date);
@@ -324,6 +332,7 @@ DeskState DeskFeed::state(LiveShow& show, const ProgrammeState& programme,
     }
     state_.question = question.empty() ? programme.replay.question : question;
     follow_replay(programme, set, now);
+    if (state_.notice.empty()) state_.notice = reload_notice(show.reloads(), now);
     state_.take = take ? desk_take(*take) : std::nullopt;
     state_.behind_s = programme.behind_s;
     state_.time = desk_time(show, programme, take);

@@ -56,11 +56,13 @@ std::vector<CounterGroup> counters_of(const RigAccount& rig) {
 }
 
 std::string state_of(const RigStatus& status) {
+    if (status.is_removed) return "removed";
     if (!status.refused.empty()) return "refused: " + status.refused;
     return status.connected ? "connected" : "disconnected";
 }
 
 std::string full_state_of(const RigStatus& status) {
+    if (status.is_removed) return removed_rig;
     if (!status.refused.empty()) return state_of(status);
     const std::string trouble = trouble_of(status);
     return trouble.empty() ? state_of(status) : state_of(status) + ": " + trouble;

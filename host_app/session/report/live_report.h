@@ -37,6 +37,14 @@ struct RigAccount {
     std::optional<RigBackgroundState> background = {};  ///< nothing: no background is learnt
 };
 
+/// What became of the requests to reload the stage file.
+struct StageReloads {
+    std::uint64_t done = 0, refused = 0;
+    std::string sentence;  ///< of the last one; empty: none was requested
+    bool was_refused = false;
+    MonotonicTime when{};  ///< of the last one
+};
+
 /// The state and the measurements of a session, for the summary, the metrics and the desk.
 struct LiveReport {
     PictureFormat format;
@@ -72,6 +80,7 @@ struct LiveReport {
     std::optional<Stereoscopy> stereoscopy;  ///< of the last picture
     std::optional<SourceShares> source_map;  ///< of the last picture, if the source map was shown
 
+    StageReloads reloads;
     std::vector<DeckDevice> wheels;
 
     std::optional<TakeState> take;  ///< nothing: none was recorded

@@ -258,6 +258,10 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
                                    {"last_refusal", port.stats.last_refusal},
                                    {"told", port.stats.told},
                                    {"failure", port.failure}});
+    if (report.reloads.done + report.reloads.refused > 0)
+        json["stage_reloads"] = {{"done", report.reloads.done},
+                                 {"refused", report.reloads.refused},
+                                 {"last", report.reloads.sentence}};
     if (report.take) json["take"] = take_json(*report.take);
     if (!report.saved_background.empty()) json["saved_background"] = report.saved_background;
     for (const OutputState& output : report.outputs)

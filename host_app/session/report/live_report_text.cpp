@@ -169,6 +169,7 @@ std::string results_text(const LiveReport& report) {
         if (!port.stats.told.empty())
             text += fmt::format("control: {}: {}\n", port.name, port.stats.told);
     if (report.take) text += take_text(*report.take);
+    if (!report.reloads.sentence.empty()) text += report.reloads.sentence + '\n';
     if (!report.saved_background.empty())
         text += fmt::format("background saved to {}\n", report.saved_background);
     if (report.sound) text += sound_text(*report.sound);

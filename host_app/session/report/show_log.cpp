@@ -1,5 +1,6 @@
 #include "host_app/session/report/show_log.h"
 
+#include <algorithm>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -23,8 +24,10 @@ std::string ProgressLog::line(const LiveShow& show) {
     const double elapsed_s = std::chrono::duration<double>(now - last_).count();
     last_ = now;
     int giving = 0;
+    const auto is_of_stage = [](const RigStatus& rig) { return !rig.is_removed; };
     const ReceiverStatus status = show.status();
     for (const RigStatus& rig : status.rigs) giving += gives_pictures(rig, status.rigs);
+    const auto of_stage = std::count_if(status.rigs.begin(), status.rigs.end(), is_of_stage);
     const ProgrammeStats stats = show.stats();
     const InstantThread::Stats instants = show.instant_stats();
     if (stats.pictures == 0) {
@@ -34,7 +37,7 @@ std::string ProgressLog::line(const LiveShow& show) {
                                         : "no picture yet: no rig has sent a frame";
         return fmt::format(
             "no picture yet: the renderer compiles its shaders, {} of {} rigs send frames", giving,
-            status.rigs.size());
+            of_stage);
     }
     const ProgrammeState state = show.state();
     // A take has neither signal nor latency.
@@ -50,8 +53,8 @@ std::string ProgressLog::line(const LiveShow& show) {
         stats.pictures, frames_ ? fmt::format(" of {}", *frames_) : "",
         static_cast<double>(stats.pictures - pictures_) / elapsed_s,
         stats.reprojected - reprojected_, stats.repeated - repeated_,
-        static_cast<double>(instants.prepared - instants_) / elapsed_s, giving, status.rigs.size(),
-        now_words, state.render_level(), state.prepare_level(), state.view.azimuth_rad * deg);
+        static_cast<double>(instants.prepared - instants_) / elapsed_s, giving, of_stage, now_words,
+        state.render_level(), state.prepare_level(), state.view.azimuth_rad * deg);
     pictures_ = stats.pictures;
     reprojected_ = stats.reprojected;
     repeated_ = stats.repeated;

@@ -70,7 +70,8 @@ std::unique_ptr<ChildProgram> TwoRigShow::start_far() {
     return rig;
 }
 
-void TwoRigShow::start_host(const std::vector<std::string>& options, const std::string& stage) {
+void TwoRigShow::start_host(const std::vector<std::string>& options, const std::string& stage,
+                            const std::vector<std::string>& environment) {
     std::vector<std::string> arguments{"live",
                                        "--stage",
                                        file(stage),
@@ -85,7 +86,7 @@ void TwoRigShow::start_host(const std::vector<std::string>& options, const std::
                                        "--metrics",
                                        fmt::format("http://:{}", metrics_port)};
     arguments.insert(arguments.end(), options.begin(), options.end());
-    host_ = std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
+    host_ = std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path(), environment);
 }
 
 void TwoRigShow::wait_for(const ChildProgram& program, const std::string& words) {

@@ -37,7 +37,8 @@ class TwoRigShow : public testing::Test {
                                             const std::string& stream);
     std::unique_ptr<ChildProgram> start_far();
     void start_host(const std::vector<std::string>& options,
-                    const std::string& stage = "stage.toml");
+                    const std::string& stage = "stage.toml",
+                    const std::vector<std::string>& environment = {});
 
     static void wait_for(const ChildProgram& program, const std::string& words);
     /// The host's last word of the far rig's connection.

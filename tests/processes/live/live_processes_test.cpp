@@ -376,7 +376,16 @@ TEST_F(LiveProcesses, LeaveATraceThatCanBeReadWhenKilled) {
     EXPECT_GT(events.size(), 50u);
 }
 
-TEST_F(LiveProcesses, SurviveAGpuResetWithoutLosingATick) {
+/// The signals of the preloaded library.
+constexpr int hang = SIGUSR1, reset = SIGUSR2;
+
+class GpuTroubles : public LiveProcesses, public testing::WithParamInterface<int> {};
+INSTANTIATE_TEST_SUITE_P(LiveProcesses, GpuTroubles, testing::Values(reset, hang),
+                         [](const auto& trouble) {
+                             return std::string(trouble.param == hang ? "Hang" : "Reset");
+                         });
+
+TEST_P(GpuTroubles, AreSurvivedWithoutLosingATick) {
     start_rig("left", -12);
     start_rig("right", 12);
     // The loader parts its list at spaces, which a checkout's path may have.
@@ -386,11 +395,13 @@ TEST_F(LiveProcesses, SurviveAGpuResetWithoutLosingATick) {
                        "--frames", "120", "--snapshot", file("last.png"), "--json", "--wait", "60"},
                       folder_.path(), {"LD_PRELOAD=" + file("gpu_reset.so")});
     wait_for(host, first_progress);
-    host.send_signal(SIGUSR2);
+    host.send_signal(GetParam());
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);
     EXPECT_EQ(summary["contexts_lost"], 1) << result.err;
+    EXPECT_EQ(result.err.find("it hangs, or its driver") != std::string::npos, GetParam() == hang)
+        << result.err;
     EXPECT_LE(summary["missed_ticks"].get<double>(), 1 + 0.02 * summary["pictures"].get<double>())
         << "ticks go on while contexts are made: " << summary["tick_late_ms"];
     EXPECT_GE(summary["new_pictures"], 5);

@@ -10,6 +10,8 @@
 #include "common/gl/context/egl_context.h"
 #include "common/gl/fullscreen_pass.h"
 #include "common/gl/objects/framebuffer.h"
+#include "common/gl/sliced_drawing.h"
+#include "tests/support/gpu_reset.h"
 #include "tests/unit/common/gl/shader_folder.h"
 
 namespace vantage {
@@ -60,6 +62,11 @@ DrawnPicture drawn_elsewhere(const EglContext& context) {
     return promise.get_future().get();
 }
 
+void draw_in_slices_and_wait() {
+    const SlicedDrawing slices(std::chrono::milliseconds(4), nullptr);
+    (void)draw_places();
+}
+
 TEST(Fence, AllowsReadingWhatAnotherThreadDrew) {
     const EglContext context;
     const DrawnPicture picture = drawn_elsewhere(context);
@@ -105,6 +112,21 @@ TEST(Fence, CountsAGpuThatDoesNotFinishInTimeAsLost) {
     }
     drawn.wait("a test drew");
     EXPECT_TRUE(drawn.reached());
+}
+
+TEST(Fence, CountsAGpuThatHangsAsLostWithoutAReportOfTheDriver) {
+    const EglContext context;
+    const Fence drawn = Fence::insert();
+    hang_gpu();
+    try {
+        drawn.wait("a test drew");
+        FAIL() << "the fence was reached";
+    } catch (const ContextLost& lost) {
+        EXPECT_STREQ(lost.what(),
+                     "the GPU has not finished its work within 10000 ms while a test drew: it "
+                     "hangs, or its driver has reset it");
+    }
+    EXPECT_THROW(draw_in_slices_and_wait(), ContextLost);
 }
 
 TEST(Fence, MovesItsPoint) {

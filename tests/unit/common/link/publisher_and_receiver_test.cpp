@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -493,6 +494,178 @@ TEST_F(LinkTest, WarnsOfDifferentTaiOffsets) {
     rig.own_tai_offset_s = 0;
     EXPECT_THAT(tai_warning(rig), HasSubstr("37 s"));
     EXPECT_THAT(clock_text(rig), HasSubstr(tai_warning(rig)));
+}
+
+class ReloadTest : public LinkTest {
+  protected:
+    static void follow(StageReceiver& host, const StageConfig& stage) {
+        host.follow(host.prepare(stage));
+    }
+    /// Publishes until the host has a frame set with the frame; the pulses go on from `pulse_`.
+    FrameSet frame_set_with(StageReceiver& host, const std::vector<Publisher*>& rigs) {
+        FrameSet set;
+        EXPECT_TRUE(eventually([&] {
+            ++pulse_;
+            for (std::size_t i = 0; i < rigs.size(); ++i) {
+                RigFrame frame = make_frame(pulse_);
+                frame.rig = names_[i];
+                rigs[i]->publish(frame);
+            }
+            const std::optional<FrameSet> next = host.next(1s);
+            if (next) set = *next;
+            return next && next->present() == static_cast<int>(rigs.size());
+        }));
+        return set;
+    }
+    std::vector<std::string> names_;
+    std::uint64_t pulse_ = 1000;
+};
+
+TEST_F(ReloadTest, ARigJoinsAndARigLeavesWhileAnotherIsUndisturbed) {
+    Publisher stays(open_stream(), "stays"), leaves(open_stream(), "leaves"),
+        joins(open_stream(), "joins");
+    StageConfig stage;
+    stage.latency_budget_ms = 1000;
+    stage.rigs = {{"leaves", leaves.endpoint(), ""}, {"stays", stays.endpoint(), ""}};
+    std::vector<std::size_t> numbers;
+    StageReceiver host(stage, StageReceiver::Purpose::film,
+                       [&](const ArrivedFrame& frame) { numbers.push_back(frame.rig); });
+    ASSERT_TRUE(eventually([&] { return connected(host, 0) && connected(host, 1); }));
+    names_ = {"leaves", "stays"};
+    (void)frame_set_with(host, {&leaves, &stays});
+    const std::vector<RigStatus> before = host.status().rigs;
+
+    StageConfig changed = stage;
+    changed.rigs = {{"stays", stays.endpoint(), ""}, {"joins", joins.endpoint(), ""}};
+    StageReceiver::Update update = host.prepare(changed);
+    EXPECT_THAT(update.names(), testing::ElementsAre("leaves", "stays", "joins"));
+    host.follow(std::move(update));
+    names_ = {"stays", "joins"};
+    const FrameSet set = frame_set_with(host, {&stays, &joins});
+    ASSERT_EQ(set.slots.size(), 2u);
+    EXPECT_EQ(set.slots[0].rig, "stays") << "in the order of the stage";
+    EXPECT_EQ(set.slots[1].rig, "joins");
+
+    const std::vector<RigStatus> rigs = host.status().rigs;
+    ASSERT_EQ(rigs.size(), 3u);
+    EXPECT_EQ(rigs[0].rig, "stays");
+    EXPECT_EQ(rigs[0].outages, 0u);
+    EXPECT_EQ(rigs[0].lost, 0u);
+    EXPECT_EQ(rigs[0].in_frame_sets - before[1].in_frame_sets,
+              rigs[0].received - before[1].received);
+    EXPECT_EQ(rigs[0].received, pulse_ - 1000) << "every frame, before and after";
+    EXPECT_EQ(rigs[1].rig, "joins");
+    EXPECT_EQ(rigs[2].rig, "leaves");
+    EXPECT_TRUE(rigs[2].is_removed);
+    EXPECT_FALSE(rigs[2].connected);
+    EXPECT_EQ(rigs[2].outages, 0u) << "removed is not gone";
+    EXPECT_EQ(trouble_of(rigs[2]), "removed from the stage");
+    EXPECT_EQ(rigs[2].in_frame_sets, before[0].in_frame_sets);
+    ASSERT_TRUE(eventually([&] { return !leaves.status().hosts.at(0).attached; }));
+
+    // It comes back with its number and its counts.
+    follow(host, stage);
+    names_ = {"leaves", "stays"};
+    (void)frame_set_with(host, {&leaves, &stays});
+    const RigStatus back = host.status().rigs[0];
+    EXPECT_FALSE(back.is_removed);
+    EXPECT_EQ(back.rig, "leaves");
+    EXPECT_EQ(back.restarts, 0u);
+    EXPECT_EQ(back.outages, 0u);
+    EXPECT_GT(back.in_frame_sets, before[0].in_frame_sets);
+    host.ask("joins", false, 1);
+    EXPECT_THROW(host.ask("nobody", false, 1), Error);
+}
+
+TEST_F(ReloadTest, ARigIsFollowedToAnotherEndpoint) {
+    auto rig = std::make_unique<Publisher>(open_stream(), "rig-a");
+    StageReceiver host(stage_of(*rig));
+    names_ = {"rig-a"};
+    (void)frame_set_with(host, {rig.get()});
+    const std::uint64_t before = host.status().rigs[0].received;
+    rig = std::make_unique<Publisher>(open_stream(), "rig-a");
+    follow(host, stage_of(*rig));
+    (void)frame_set_with(host, {rig.get()});
+    const RigStatus status = host.status().rigs[0];
+    EXPECT_EQ(status.endpoint, rig->endpoint());
+    EXPECT_EQ(status.restarts, 1u);
+    EXPECT_GT(status.received, before) << "the counts go on";
+}
+
+TEST_F(ReloadTest, AnInvalidStageChangesNothing) {
+    Publisher rig(open_stream(), "rig-a");
+    StageReceiver host(stage_of(rig));
+    names_ = {"rig-a"};
+    (void)frame_set_with(host, {&rig});
+    StageConfig bad = stage_of(rig);
+    bad.rigs.push_back({"rig-b", "tcp://192.0.2.1:5600", ""});
+    EXPECT_THAT(thrown_sentence([&] { (void)host.prepare(bad); }), HasSubstr("needs keys"));
+    (void)frame_set_with(host, {&rig});
+    EXPECT_EQ(host.status().rigs.size(), 1u);
+    EXPECT_EQ(host.status().rigs[0].outages, 0u);
+}
+
+TEST_F(ReloadTest, ANewKeyOfTheHostIsUsedWithoutARestart) {
+    const CurveKeys old_keys = generate_curve_keys(), new_keys = generate_curve_keys();
+    Publisher rig(secured_stream({old_keys}), "rig-a");
+    StageReceiver host(stage_of(rig, key_file_of(old_keys)));
+    names_ = {"rig-a"};
+    (void)frame_set_with(host, {&rig});
+    // The rig admits both for as long as the keys are changed.
+    authorize({old_keys, new_keys});
+    follow(host, stage_of(rig, key_file_of(new_keys)));
+    authorize({new_keys});
+    ASSERT_TRUE(eventually([&] {
+        const auto hosts = rig.status().hosts;
+        const auto attached =
+            std::count_if(hosts.begin(), hosts.end(), [](const auto& one) { return one.attached; });
+        return attached == 1 && connected(host) && host.status().rigs[0].refused.empty();
+    }));
+    (void)frame_set_with(host, {&rig});
+    const RigStatus status = host.status().rigs[0];
+    EXPECT_EQ(status.refused, "");
+    EXPECT_EQ(status.restarts, 0u);
+}
+
+TEST_F(ReloadTest, ARigWhoseKeyIsRevokedIsCutOffAtOnceAndItsNewKeyIsTakenLive) {
+    const CurveKeys host_keys = generate_curve_keys();
+    auto rig = std::make_unique<Publisher>(secured_stream({host_keys}), "rig-a");
+    Publisher other(open_stream(), "other");
+    StageConfig stage = stage_of(*rig, key_file_of(host_keys));
+    stage.latency_budget_ms = 1000;
+    stage.rigs.push_back({"other", other.endpoint(), ""});
+    StageReceiver host(stage);
+    names_ = {"rig-a", "other"};
+    (void)frame_set_with(host, {rig.get(), &other});
+
+    // The stage file states another key: whoever has the old one is a stranger.
+    StageConfig revoked = stage;
+    revoked.rigs[0].public_key = generate_curve_keys().public_key;
+    follow(host, revoked);
+    ASSERT_TRUE(eventually([&] { return !host.status().rigs[0].refused.empty(); }));
+    EXPECT_THAT(host.status().rigs[0].refused, HasSubstr("does not have the key"));
+    const std::uint64_t received = host.status().rigs[0].received;
+    names_ = {"other"};
+    for (int i = 0; i < 5; ++i) {
+        rig->publish(make_frame(++pulse_));
+        other.publish(make_frame(pulse_));
+        ASSERT_TRUE(host.next(patience));
+    }
+    EXPECT_EQ(host.status().rigs[0].received, received);
+    EXPECT_EQ(host.status().rigs[1].outages, 0u) << "the rig beside goes on";
+
+    // The rig makes a new key, and the stage file follows.
+    rig.reset();
+    std::filesystem::remove(folder_.path() / "rig.key");
+    rig = std::make_unique<Publisher>(secured_stream({host_keys}), "rig-a");
+    stage.rigs[0] = {"rig-a", rig->endpoint(), rig->public_key()};
+    follow(host, stage);
+    names_ = {"rig-a", "other"};
+    (void)frame_set_with(host, {rig.get(), &other});
+    EXPECT_EQ(host.status().rigs[0].refused, "");
+    EXPECT_GT(host.status().rigs[0].received, received);
+    EXPECT_EQ(host.status().rigs[1].outages, 0u);
+    EXPECT_EQ(host.status().rigs[1].lost, 0u);
 }
 
 }  // namespace

@@ -548,5 +548,58 @@ TEST(FrameSetAssembler, EveryFrameHasExactlyOneFate) {
                          stage.count(FrameFate::out_of_step));
 }
 
+std::vector<std::string> rigs_of(const FrameSet& set) {
+    std::vector<std::string> names;
+    for (const FrameSet::Slot& slot : set.slots) names.push_back(slot.rig);
+    return names;
+}
+
+TEST(FrameSetAssembler, FollowsAChangedStageWithoutLosingAFrame) {
+    Stage stage(3);
+    start(stage, 3, 100);
+    stage.at(101, 10ms);
+    for (const std::size_t rig : {0, 2}) stage.frame(rig, 101);
+    EXPECT_THAT(stage.closed(), IsEmpty());
+
+    // Rig 0 leaves, rig 3 joins before the others, and a frame set is open.
+    FrameSetAssembler& assembler = stage.assembler();
+    assembler.add_rig("rig-3");
+    assembler.set_connected(0, false);
+    assembler.set_connected(3, true);
+    assembler.set_order({3, 1, 2});
+    stage.frame(3, 101);
+    stage.frame(1, 101);
+    const std::vector<FrameSet> across = stage.closed();
+    ASSERT_EQ(across.size(), 1u);
+    EXPECT_THAT(rigs_of(across[0]), ElementsAre("rig-3", "rig-1", "rig-2", "rig-0"))
+        << "the frame that the removed rig had sent";
+    EXPECT_EQ(across[0].present(), 4);
+
+    stage.at(102, 10ms);
+    for (const std::size_t rig : {1, 2, 3}) stage.frame(rig, 102);
+    const std::vector<FrameSet> after = stage.closed();
+    ASSERT_EQ(after.size(), 1u) << "nobody waits for the rig that left";
+    EXPECT_THAT(rigs_of(after[0]), ElementsAre("rig-3", "rig-1", "rig-2"));
+    EXPECT_EQ(stage.count(FrameFate::in_frame_set), 3 + 2 + 2 + 3);
+}
+
+TEST(FrameSetAssembler, ARigThatRunsAheadDoesNotMakeTheOthersLate) {
+    Stage stage(3);
+    start(stage, 3, 100);
+    // Nearly as far ahead as is still in step: nearly all of the others' budget.
+    constexpr std::uint64_t ahead = budget / pulse_period - 1;
+    for (std::uint64_t k = 101; k < 130; ++k) {
+        stage.at(k, 10ms);
+        (void)stage.frame(0, k + ahead);
+        (void)stage.closed();
+        // Now and then the others are somewhat slower.
+        stage.at(k, k % 4 == 0 ? 70ms : 30ms);
+        (void)stage.closed();
+        for (const std::size_t rig : {1, 2})
+            EXPECT_EQ(stage.frame(rig, k), FrameFate::in_frame_set) << k;
+        (void)stage.closed();
+    }
+}
+
 }  // namespace
 }  // namespace vantage

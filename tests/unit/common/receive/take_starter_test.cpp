@@ -51,6 +51,14 @@ TEST_F(TakeStarterTest, ContinuesARunningTake) {
     EXPECT_EQ(update(0s), 4711u);
 }
 
+TEST_F(TakeStarterTest, DoesNotWaitForAPulseThatARigInvents) {
+    for (std::size_t rig = 0; rig < rigs_.size(); ++rig) make_ready(rig);
+    rigs_[1].sync.first_pulse = grid_.index_at_or_before(tai_ + 61s);
+    const auto first = update(0s);
+    ASSERT_TRUE(first.has_value());
+    EXPECT_LE(grid_.time_of(*first), tai_ + 2s);
+}
+
 TEST_F(TakeStarterTest, ReportsRigsThatAreNotReadyOnce) {
     rigs_[0].sync.first_pulse = 4711;
     make_ready(0);

@@ -231,6 +231,42 @@ TEST_F(TakeRecorderTest, RecordsSeveralTakesInSequence) {
     EXPECT_EQ(recorder.state().takes, 2u);
 }
 
+TEST_F(TakeRecorderTest, FollowsAChangedStageWithTheNextTake) {
+    TakeRecorder recorder(settings());
+    recorder.begin(take_);
+    offer_both(recorder, 100, 103);
+    // North leaves, and west joins with the next number.
+    recorder.change_stage({{"north", "south", "west"}, {2, 1}, {{"key", "other"}}, {}});
+    offer_both(recorder, 104, 105);
+    ArrivedFrame west = arrived(1, 105);
+    west.rig = 2;
+    west.packed = std::make_shared<const PackedFrame>(sent_frame("west", 105));
+    recorder.offer(west);
+    recorder.finish();
+    EXPECT_EQ(frames_of(0), 6u) << "the take keeps the rigs that it began with";
+    EXPECT_EQ(frames_of(1), 6u);
+    ASSERT_EQ(recorder.state().rigs.size(), 3u);
+    EXPECT_EQ(recorder.state().rigs[2].name, "west");
+    EXPECT_EQ(recorder.state().rigs[2].refused, 1u) << "and counts the others' frames";
+
+    take_ = folder_.path() / "next.mkv";
+    recorder.begin(take_);
+    for (std::uint64_t pulse = 110; pulse <= 112; ++pulse) {
+        recorder.offer(arrived(1, pulse));
+        west.packed = std::make_shared<const PackedFrame>(sent_frame("west", pulse));
+        recorder.offer(west);
+    }
+    recorder.finish();
+    const TakeReader take(take_);
+    ASSERT_EQ(take.facts().rigs.size(), 2u);
+    EXPECT_EQ(take.facts().rigs[0].name, "west");
+    EXPECT_EQ(take.facts().rigs[1].name, "south");
+    EXPECT_EQ(take.facts().show.at("key"), "other");
+    EXPECT_EQ(frames_of(0), 3u);
+    EXPECT_EQ(frames_of(1), 3u);
+    EXPECT_EQ(recorder.state().rigs.size(), 2u);
+}
+
 TEST_F(TakeRecorderTest, RefusesANewTakeWhileTheLastIsBeingWritten) {
     std::promise<void> release;
     TakeRecorder recorder(with_a_disk_held_by(release));

@@ -65,5 +65,17 @@ TEST_F(StageCorridorTest, KeepsARigThatNoFramesWereRequestedOf) {
     EXPECT_EQ(after(60s, {"north"}, Absence::not_asked), both);
 }
 
+TEST_F(StageCorridorTest, ForgetsARigThatIsRemovedFromTheStageAtOnce) {
+    corridor_.begin({});
+    const auto both = after(0ms, {"north", "south"});
+    FrameSet set = feed_.set(2, {"north"});
+    set.slots.pop_back();
+    set.complete = MonotonicTime{1h} + 40ms;
+    corridor_.update(set);
+    EXPECT_NE(corridor_.now(), both);
+    ASSERT_EQ(corridor_.places()->rigs.size(), 1u);
+    EXPECT_EQ(corridor_.places()->rigs[0].name, "north");
+}
+
 }  // namespace
 }  // namespace vantage

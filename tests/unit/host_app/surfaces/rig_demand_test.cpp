@@ -95,5 +95,16 @@ TEST_F(RigDemandTest, LeavesASmallStageAlone) {
     EXPECT_TRUE(demand.update(std::array{view_at(0)}, start_ + 60s).empty());
 }
 
+TEST_F(RigDemandTest, ARigThatLeftTheStageTakesNoOthersPlace) {
+    FrameSet set;
+    for (const DepthView& rig : rigs_)
+        if (rig.name != "0") set.slots.push_back({rig.name, nullptr, Absence::late});
+    demand_.forget_others(set);
+    EXPECT_TRUE(update(0, 0s).empty());
+    const auto changes = update(0, 4s);
+    EXPECT_FALSE(changes.contains("0"));
+    EXPECT_EQ(changes.size(), rigs_.size() - 1 - RigDemand::most_rigs);
+}
+
 }  // namespace
 }  // namespace vantage
