@@ -87,23 +87,18 @@ class HullRenderer final : public ViewRenderer {
                                           [&](const SeenRig& one) { return one.now == rig; }));
     }
 
-    /// On units 0 to 2 * rigs - 1.
     void bind_silhouettes(Program& program, const VirtualView& target) {
         for (std::size_t i = 0; i < used_.size(); ++i) {
-            const int unit = static_cast<int>(i), rigs = static_cast<int>(used_.size());
             const SeenRig& rig = used_[i];
-            const auto set = [&](const char* name, const auto& value) {
-                program.set(fmt::format("{}[{}]", name, i), value);
-            };
             const Texture& matte = rig.apart->matte->share.texture();
-            set("matte", unit);
-            set("background_depth", rigs + unit);
-            set("pixel_from_target",
+            program.input("matte", i, matte);
+            program.input("background_depth", i, rig.apart->background->depth());
+            program.set(
+                "pixel_from_target", i,
                 Eigen::Matrix4f(pixel_from_target_pixel(rig.now->camera(), target).cast<float>()));
-            set("picture_size", Eigen::Vector2f(static_cast<float>(matte.width_px()),
-                                                static_cast<float>(matte.height_px())));
-            matte.bind(unit);
-            rig.apart->background->depth().bind(rigs + unit);
+            program.set("picture_size", i,
+                        Eigen::Vector2f(static_cast<float>(matte.width_px()),
+                                        static_cast<float>(matte.height_px())));
         }
     }
 
@@ -118,10 +113,10 @@ class HullRenderer final : public ViewRenderer {
         bind_silhouettes(program, target);
         program.set("range_m", Eigen::Vector2f(static_cast<float>(nearest_share * typical_m),
                                                static_cast<float>(farthest_share * typical_m)));
-        const int unit = 2 * static_cast<int>(used_.size());
-        program.set("background_behind", unit);
+        program.input("background_behind", background_behind
+                                               ? *background_behind
+                                               : used_.front().apart->background->depth());
         program.set("has_background", background_behind ? 1.0f : 0.0f);
-        if (background_behind) background_behind->bind(unit);
         pass.draw(into.target());
     }
 
@@ -143,23 +138,17 @@ class HullRenderer final : public ViewRenderer {
         Program& program = pass.use();
         bind_silhouettes(program, view);
         const Pose target_from_world = view.world_from_camera.inverse();
-        // The shader uses the silhouettes' matrices and not their textures: those units are free.
-        int unit = 0;
-        const auto bind = [&](const std::string& name, const Texture& texture) {
-            program.set(name, unit);
-            texture.bind(unit++);
-        };
         for (std::size_t i = 0; i < used_.size(); ++i) {
-            bind(fmt::format("rig_hull[{}]", i), rig_hulls_[i].texture());
-            bind(fmt::format("colour[{}]", i), used_[i].now->surface->colour());
-            program.set(fmt::format("centre[{}]", i),
+            program.input("rig_hull", i, rig_hulls_[i].texture());
+            program.input("colour", i, used_[i].now->surface->colour());
+            program.set("centre", i,
                         Eigen::Vector3f((target_from_world *
                                          used_[i].now->camera().world_from_camera.translation())
                                             .cast<float>()));
         }
-        bind("hull", hull_.texture());
-        bind("background_colour", set.colour());
-        bind("background_behind", set.depth_m());
+        program.input("hull", hull_.texture());
+        program.input("background_colour", set.colour());
+        program.input("background_behind", set.depth_m());
         program.set("ray_from_pixel", Eigen::Matrix3f(view.K.inverse().cast<float>()));
         pass.draw(laid_.target());
         return laid_;

@@ -11,11 +11,9 @@ FullscreenPass pass(const ShaderLibrary& library, const char* boundary, const ch
 
 void draw(FullscreenPass& pass, const RigSurface& source, const Framebuffer& target) {
     Program& program = pass.use();
-    program.set("picture", 0);
-    program.set("depth_map", 1);
+    program.input("picture", source.colour());
+    program.input("depth_map", source.depth());
     program.set("edge_ratio", depth_edge_ratio);
-    source.colour().bind(0);
-    source.depth().bind(1);
     pass.draw(target);
 }
 

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include "host_app/gallery/relief_warp.h"
 #include "host_app/pipeline/instant_preparer.h"
@@ -57,11 +56,10 @@ class PrewarpRenderer final : public ViewRenderer {
             const Pose rig_from_target =
                 camera.world_from_camera.inverse() * view.world_from_camera;
             const auto set = [&](const char* name, const auto& value) {
-                program.set(fmt::format("{}[{}]", name, i), value);
+                program.set(name, i, value);
             };
-            const int unit = static_cast<int>(i), count = static_cast<int>(layers.size());
-            set("warped_colour", unit);
-            set("warped_m", count + unit);
+            program.input("warped_colour", i, relief.colour());
+            program.input("warped_m", i, relief.depth_m());
             set("ray",
                 Eigen::Matrix3f((rig_from_target.linear() * view.K.inverse()).cast<float>()));
             set("eye", Eigen::Vector3f(rig_from_target.translation().cast<float>()));
@@ -73,8 +71,6 @@ class PrewarpRenderer final : public ViewRenderer {
                                              .cast<float>()));
             set("spread", depth_spread(camera));
             set("presence", layers[i].presence);
-            relief.colour().bind(unit);
-            relief.depth_m().bind(count + unit);
         }
         pass.draw(composed_.target());
     }
@@ -102,7 +98,7 @@ class SearchRenderer final : public ViewRenderer {
                 Program& program = search_.use();
                 DepthView map = surface.camera();
                 map.K = surface.K_depth();
-                program.set("depth_map", 0);
+                program.input("depth_map", surface.depth());
                 program.set("pixel_from_target",
                             Eigen::Matrix4f(pixel_from_target_pixel(map, view).cast<float>()));
                 const double typical_m = surface.median_depth_m();
@@ -111,7 +107,6 @@ class SearchRenderer final : public ViewRenderer {
                                             static_cast<float>(farthest_share * typical_m)));
                 program.set("near_m", static_cast<float>(near_m));
                 program.set("edge_ratio", depth_edge_ratio);
-                surface.depth().bind(0);
                 search_.draw_depth(depth_only);
             });
         return blender_.blend(view, blend_);

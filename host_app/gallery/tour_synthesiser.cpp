@@ -148,15 +148,10 @@ class TourRenderer final : public ViewRenderer {
         program.set("picture_size", Eigen::Vector2f(static_cast<float>(picture.width_px()),
                                                     static_cast<float>(picture.height_px())));
         program.set("ray_from_pixel", Eigen::Matrix3f(view.K.inverse().cast<float>()));
-        int unit = 0;
-        const auto bind = [&](const char* name, const Texture& texture) {
-            program.set(name, unit);
-            texture.bind(unit++);
-        };
-        bind("background_colour", told.rigs[number].background->colour());
-        bind("picture", picture);
-        bind("matte", told.rigs[number].matte->share.texture());
-        bind("numbers", *tour.rigs[number].labels->numbers);
+        program.input("background_colour", told.rigs[number].background->colour());
+        program.input("picture", picture);
+        program.input("matte", told.rigs[number].matte->share.texture());
+        program.input("numbers", *tour.rigs[number].labels->numbers);
         draw_.draw(picture_.target());
     }
 

@@ -30,10 +30,8 @@ const Texture& HoleFiller::fill(const Texture& colour, const Texture& depth_m) {
     const Texture* fine_depth_m = &depth_m;
     for (const auto& level : levels_) {
         Program& program = pull_.use();
-        program.set("colour", 0);
-        program.set("depth_m", 1);
-        fine_colour->bind(0);
-        fine_depth_m->bind(1);
+        program.input("colour", *fine_colour);
+        program.input("depth_m", *fine_depth_m);
         pull_.draw(level->target);
         fine_colour = &level->colour;
         fine_depth_m = &level->depth_m;
@@ -42,10 +40,8 @@ const Texture& HoleFiller::fill(const Texture& colour, const Texture& depth_m) {
     for (std::size_t i = levels_.size(); i-- > 0;) {
         const bool is_finest = i == 0;
         Program& program = push_.use();
-        program.set("known", 0);
-        program.set("coarse", 1);
-        (is_finest ? colour : levels_[i - 1]->colour).bind(0);
-        coarse->bind(1);
+        program.input("known", is_finest ? colour : levels_[i - 1]->colour);
+        program.input("coarse", *coarse);
         program.set("filled_alpha", is_finest ? 64.0f / 255.0f : 1.0f);
         push_.draw(is_finest ? *filled_target_ : levels_[i - 1]->filled_target);
         coarse = is_finest ? &*filled_ : &levels_[i - 1]->filled;

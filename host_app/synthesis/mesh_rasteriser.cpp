@@ -66,9 +66,8 @@ void MeshRasteriser::draw_depth(const DepthGrid& grid, const VirtualView& target
             .cast<float>();
     const auto prepare = [&](Program& draw) {
         draw.use();
-        draw.set("depth_map", 0);
+        draw.input("depth_map", grid.depth_m);
         draw.set("clip_from_pixel", clip_from_pixel);
-        grid.depth_m.bind(0);
         vertices_.bind();
     };
     prepare(draw_);

@@ -4,7 +4,6 @@
 #include <cassert>
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include "host_app/views/depth_view.h"
 #include "host_app/views/projection.h"
@@ -49,18 +48,15 @@ void RigLayers::draw(std::span<const DrawnLayer> layers, const VirtualView& targ
 
 void RigLayers::bind(Program& program) const {
     const Pose target_from_world = target_.world_from_camera.inverse();
-    const int count = static_cast<int>(used_.size());
-    for (int i = 0; i < count; ++i) {
-        const DrawnLayer& layer = used_[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < used_.size(); ++i) {
+        const DrawnLayer& layer = used_[i];
         const RigSurface& view = *layer.surface;
         const DepthView& camera = view.camera();
         const Eigen::Vector3d centre = target_from_world * camera.world_from_camera.translation();
-        const auto set = [&](const char* name, const auto& value) {
-            program.set(fmt::format("{}[{}]", name, i), value);
-        };
-        set("layer_depth", i);
-        set("colour", count + i);
-        set("source_depth", 2 * count + i);
+        const auto set = [&](const char* name, const auto& value) { program.set(name, i, value); };
+        program.input("layer_depth", i, layers_[i].texture());
+        program.input("colour", i, view.colour());
+        program.input("source_depth", i, view.depth());
         set("pixel_from_target",
             Eigen::Matrix4f(pixel_from_target_pixel(camera, target_).cast<float>()));
         set("colour_size", Eigen::Vector2f(static_cast<float>(view.colour().width_px()),
@@ -68,9 +64,6 @@ void RigLayers::bind(Program& program) const {
         set("centre", Eigen::Vector3f(centre.cast<float>()));
         set("spread", depth_spread(camera));
         set("presence", layer.presence);
-        layers_[static_cast<std::size_t>(i)].texture().bind(i);
-        view.colour().bind(count + i);
-        view.depth().bind(2 * count + i);
     }
     program.set("ray_from_pixel", Eigen::Matrix3f(target_.K.inverse().cast<float>()));
     program.set("near_m", static_cast<float>(near_m_));

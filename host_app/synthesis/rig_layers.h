@@ -48,11 +48,8 @@ class RigLayers {
     void draw(std::span<const DrawnLayer> layers, const VirtualView& target,
               const Drawing& drawing);
 
-    /// Binds depth, colour and source depth of every layer from unit 0 on (LAYERS of each in turn)
-    /// and sets the uniforms of rig_layers.glsl. The program must be in use.
+    /// Sets the inputs and uniforms of rig_layers.glsl. The program must be in use.
     void bind(Program& program) const;
-    /// Returns the first texture unit that bind() does not use.
-    int first_free_unit() const { return 3 * static_cast<int>(used_.size()); }
 
     std::span<const DrawnLayer> used() const { return used_; }
 
