@@ -7,7 +7,7 @@
 
 #include "host_app/gallery/tour_preparer.h"
 #include "host_app/surfaces/depth_picture.h"
-#include "host_app/synthesis/hole_filler.h"
+#include "host_app/surfaces/pull_push.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"
 #include "host_app/views/view_ranking.h"
