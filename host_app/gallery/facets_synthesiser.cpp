@@ -7,7 +7,7 @@
 #include "common/gl/objects/vertex_array.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
-#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"
 

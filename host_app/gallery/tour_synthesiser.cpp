@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "host_app/gallery/tour_preparer.h"
-#include "host_app/surfaces/depth_picture.h"
+#include "host_app/surfaces/drawn_texture.h"
 #include "host_app/surfaces/pull_push.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"

@@ -8,8 +8,6 @@
 
 #include "common/base/time/time.h"
 #include "host_app/views/depth_view.h"
-#include "host_app/views/surface_samples.h"
-#include "host_app/views/virtual_view.h"
 
 namespace vantage {
 

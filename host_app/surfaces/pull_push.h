@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "common/gl/fullscreen_pass.h"
-#include "host_app/surfaces/depth_picture.h"
 #include "host_app/surfaces/drawn_texture.h"
 
 namespace vantage {

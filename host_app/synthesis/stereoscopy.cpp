@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "host_app/views/surface_samples.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 namespace {
