@@ -181,7 +181,6 @@ std::vector<DepthTile> backdrop_tiles(const DepthImage& depth_m, int cell_px) {
     continue_into_holes(cells, known);
     // A corner of four cells takes the farthest, and stays behind all of them.
     cv::Mat1f corners(cells.rows + 1, cells.cols + 1);
-    constexpr float behind = 0.97f;
     for (int y = 0; y < corners.rows; ++y)
         for (int x = 0; x < corners.cols; ++x) {
             float farthest = 1e9f;
@@ -189,7 +188,7 @@ std::vector<DepthTile> backdrop_tiles(const DepthImage& depth_m, int cell_px) {
                 farthest =
                     std::min(farthest, cells.at<float>(std::clamp(y - k / 2, 0, cells.rows - 1),
                                                        std::clamp(x - k % 2, 0, cells.cols - 1)));
-            corners(y, x) = behind * farthest;
+            corners(y, x) = (1 - view_edge_share) * farthest;
         }
     std::vector<DepthTile> tiles;
     const auto corner = [&](int x, int y) {

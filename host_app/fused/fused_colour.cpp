@@ -23,8 +23,6 @@ const Texture& FusedDepth::find(const RigLayers& layers, cv::Size size) {
 
 namespace {
 
-/// Ratio of two depths from which on they lie on two surfaces.
-constexpr float edge_ratio = 1.03f;
 /// The kinds of pixels, stored as depths for the depth test; finished pixels lie below the first.
 constexpr float inner_kind = 0.25f, empty_kind = 0.5f, edge_kind = 0.75f;
 
@@ -45,7 +43,7 @@ const Texture& FusedColour::sort(const Texture& fused_depth) {
     kinds_.resize(fused_depth.size());
     Program& program = kinds_pass_.use();
     program.input("fused_depth", fused_depth);
-    program.set("edge_ratio", edge_ratio);
+    program.set("edge_ratio", 1 + view_edge_share);
     program.set("inner_kind", inner_kind);
     program.set("empty_kind", empty_kind);
     program.set("edge_kind", edge_kind);
@@ -58,7 +56,7 @@ FullscreenPass& FusedColour::use(LayerPass& pass, const RigLayers& layers,
     FullscreenPass& drawing = pass.use(layers, notes_origins);
     Program& program = drawing.use();
     program.input("fused_depth", fused_depth);
-    program.set("edge_ratio", edge_ratio);
+    program.set("edge_ratio", 1 + view_edge_share);
     program.set("remembered_confidence", RigSurface::remembered_confidence);
     program.set("remembered_alpha", remembered_alpha / 255.0f);
     return drawing;

@@ -16,8 +16,6 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t most_rigs = RigLayers::max_layers;
-/// Relative depth difference up to which two rigs' backgrounds count as the same surface.
-constexpr float background_softness = 0.005f;
 /// Range of depth that is searched for foreground, relative to the rigs' typical depth.
 constexpr double nearest_share = 0.3, farthest_share = 3;
 
@@ -41,7 +39,7 @@ std::vector<SeenRig> rigs_with_silhouettes(const Instant& instant) {
 class HullRenderer final : public ViewRenderer {
   public:
     explicit HullRenderer(const ShaderLibrary& library)
-        : blend_background_(library, "mesh_blend.frag", background_softness), blender_(library) {
+        : blend_background_(library, "mesh_blend.frag", same_surface_share), blender_(library) {
         for (std::size_t rigs = 1; rigs <= most_rigs; ++rigs) {
             const ShaderDefines defines{{"RIGS", std::to_string(rigs)}};
             depth_.emplace_back(library, "hull_depth.frag", defines);

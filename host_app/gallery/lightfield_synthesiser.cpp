@@ -16,8 +16,6 @@ namespace {
 
 /// Number of cameras whose rays one pass adds.
 constexpr std::size_t cameras_per_pass = 4;
-/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
-constexpr float softness = 0.005f;
 
 std::vector<Pose> poses_of(const Instant& instant) {
     std::vector<Pose> poses;
@@ -34,7 +32,7 @@ class LightFieldRenderer final : public ViewRenderer {
           aperture_m_(choices.number("aperture-m")),
           is_corrected_(choices.word("rays") == "corrected"),
           end_(library, "lightfield_end.frag"),
-          surface_(library, "mesh_blend.frag", softness),
+          surface_(library, "mesh_blend.frag", same_surface_share),
           layers_(library),
           filler_(library) {
         for (std::size_t cameras = 1; cameras <= cameras_per_pass; ++cameras)

@@ -16,8 +16,6 @@
 namespace vantage {
 namespace {
 
-/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
-constexpr float softness = 0.005f;
 /// Range of depth in which lines of sight are searched, relative to the rig's typical depth.
 constexpr double nearest_share = 0.3, farthest_share = 4;
 
@@ -49,7 +47,7 @@ class PrewarpRenderer final : public ViewRenderer {
         for (std::size_t i = 0; i < layers.size(); ++i) warps_[i].warp(*layers[i].surface, view);
         FullscreenPass& pass = compose_[layers.size() - 1];
         Program& program = pass.use();
-        program.set("softness", softness);
+        program.set("softness", same_surface_share);
         for (std::size_t i = 0; i < layers.size(); ++i) {
             const ReliefWarp& relief = warps_[i];
             const DepthView& camera = layers[i].surface->camera();
@@ -87,7 +85,7 @@ class SearchRenderer final : public ViewRenderer {
   public:
     explicit SearchRenderer(const ShaderLibrary& library)
         : search_(library, "relief_search.frag"),
-          blend_(library, "mesh_blend.frag", softness),
+          blend_(library, "mesh_blend.frag", same_surface_share),
           blender_(library) {}
 
     const Texture& render(const Instant& instant, const VirtualView& view,

@@ -93,9 +93,6 @@ class RigLayers {
     double near_m_ = 0;
 };
 
-/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
-inline constexpr float same_surface_share = 0.005f;
-
 /// A fragment shader that merges layers. It includes rig_layers.glsl and writes the colour and the
 /// depth of a DepthPicture. There is one program for every number of layers.
 class LayerPass {
