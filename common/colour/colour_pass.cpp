@@ -7,10 +7,9 @@ ColourPass::ColourPass(const ShaderLibrary& library) : pass_(library, "colour_co
 void ColourPass::correct(const Texture& camera, const ColourCorrection& correction,
                          const Framebuffer& target) {
     Program& program = pass_.use();
-    program.set("camera", 0);
+    program.input("camera", camera);
     program.set("stage_from_camera", Eigen::Matrix3f(correction.matrix.cast<float>()));
     program.set("tone", Eigen::Vector3f(correction.tone.cast<float>()));
-    camera.bind(0);
     pass_.draw(target);
 }
 

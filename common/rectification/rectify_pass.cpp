@@ -48,8 +48,7 @@ const Texture& RectifyPass::rectify(const Texture& raw) {
     require_raw_size(raw.size());
     if (is_identity_) return raw;
     Program& program = pass_.use();
-    raw.bind(0);
-    program.set("raw", 0);
+    program.input("raw", raw);
     return run(pass_, program);
 }
 
@@ -63,11 +62,8 @@ const Texture& RectifyPass::rectify(const RawPlanes& raw) {
                                            {"FORMAT", std::to_string(raw.shader_format)}});
         planes_format_ = raw.shader_format;
     }
-    constexpr int first_plane_unit = 2;
     Program& program = planes_pass_->use();
-    raw.bind(first_plane_unit);
-    program.set("raw", first_plane_unit);
-    program.set("chroma", first_plane_unit + 1);
+    raw.inputs(program);
     program.set("raw_size", Eigen::Vector2i(raw_size_.width, raw_size_.height));
     program.set("first_column_px", raw.first_column_px);
     const auto texel_of = [](cv::Size size) {
@@ -89,8 +85,7 @@ void RectifyPass::require_raw_size(cv::Size size) const {
 }
 
 const Texture& RectifyPass::run(FullscreenPass& pass, Program& program) {
-    program.set("positions", 1);
-    positions_.bind(1);
+    program.input("positions", positions_);
     pass.overwrite(target_);
     return rectified_;
 }

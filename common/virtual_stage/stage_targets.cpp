@@ -43,8 +43,7 @@ void StageTargets::copy_depth(const StageTargets& other) const {
 void StageTargets::reduce_colour(FullscreenPass& reduce, std::span<const cv::Rect> parts) const {
     if (samples_per_side_ == 1) return;
     Program& program = reduce.use();
-    samples_.bind(0);
-    program.set("samples", 0);
+    program.input("samples", samples_);
     glEnable(GL_SCISSOR_TEST);
     for (const cv::Rect& part : parts) {
         glScissor(part.x, part.y, part.width, part.height);

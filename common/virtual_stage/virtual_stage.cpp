@@ -37,8 +37,6 @@ constexpr std::size_t max_kept_targets = 4, max_kept_scenes = 4;
 /// between texels.
 constexpr float shadow_margin_m = 0.05f;
 
-enum TextureUnit { unit_textures, unit_shadow };
-
 /// Sets the GL state for drawing solids; called before every pass.
 void prepare_to_draw_solids() {
     glEnable(GL_DEPTH_TEST);
@@ -112,7 +110,17 @@ struct ColourProgram {
     Program program;
 };
 
-GlHandle<delete_texture> upload_textures(std::uint64_t seed) {
+/// The scenery's textures as the layers of one.
+struct LayeredTexture {
+    GlHandle<delete_texture> handle;
+
+    void bind(int unit) const {
+        glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        glBindTexture(GL_TEXTURE_2D_ARRAY, handle.name());
+    }
+};
+
+LayeredTexture upload_textures(std::uint64_t seed) {
     GLuint name = 0;
     glGenTextures(1, &name);
     GlHandle<delete_texture> handle(name);
@@ -133,14 +141,14 @@ GlHandle<delete_texture> upload_textures(std::uint64_t seed) {
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_S, GL_REPEAT);
     glTexParameteri(GL_TEXTURE_2D_ARRAY, GL_TEXTURE_WRAP_T, GL_REPEAT);
     check_gl("loading the virtual stage's textures");
-    return handle;
+    return {std::move(handle)};
 }
 
 Texture make_shadow_texture(bool compared) {
     Texture texture(TextureFormat::depth24, shadow_side_px, shadow_side_px,
                     compared ? Filter::linear : Filter::nearest);
     if (compared) {
-        texture.bind(unit_shadow);
+        glBindTexture(GL_TEXTURE_2D, texture.name());
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     }
@@ -346,8 +354,8 @@ struct VirtualStage::Impl {
         program.set("sky_colour", light.sky_colour);
         program.set("ground_colour", light.ground_colour);
         program.set("eye_m", Eigen::Vector3f(camera.world_from_camera.translation().cast<float>()));
-        program.set("textures", static_cast<int>(unit_textures));
-        program.set("shadow_map", static_cast<int>(unit_shadow));
+        program.input("textures", textures);
+        program.input("shadow_map", shadow);
     }
 
     /// The cached image of a camera without performers, rendered if missing. Replaces the least
@@ -452,9 +460,6 @@ struct VirtualStage::Impl {
     template <class Draws>
     void draw_colours(const StageCamera& camera, const Eigen::Matrix4f& clip,
                       const std::vector<const StageChunk*>& chunks, Draws draws) {
-        glActiveTexture(GL_TEXTURE0 + unit_textures);
-        glBindTexture(GL_TEXTURE_2D_ARRAY, textures.name());
-        shadow.bind(unit_shadow);
         vertex_array.bind();
         for (ColourProgram& way : colour_programs) {
             bool in_use = false;
@@ -578,7 +583,7 @@ struct VirtualStage::Impl {
     StageScene scene;
     Buffer vertices, indices;
     VertexArray vertex_array;
-    GlHandle<delete_texture> textures;
+    LayeredTexture textures;
     Texture still_shadow, shadow;
     Framebuffer still_shadow_target, shadow_target;
     std::vector<ColourProgram> colour_programs;

@@ -1,16 +1,52 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
+
+#include <opencv2/core.hpp>
 
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/texture.h"
-#include "host_app/baked/depth_tiles.h"
+#include "common/image/image.h"
 #include "host_app/surfaces/instant.h"
-#include "host_app/views/virtual_view.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
+
+/// A corner of a tile: a place in a depth map (px, pixel centres at whole numbers), the inverse
+/// depth of the tile's plane there (1/m), and how far an inverse depth of the map may lie from the
+/// plane and still belong to the tile (1/m).
+struct TileCorner {
+    float u_px, v_px, inverse_depth, tolerance;
+};
+
+/// A quad of a depth map whose pixels lie on one plane: inverse depth is linear over a plane's
+/// picture.
+struct DepthTile {
+    TileCorner corners[4];  ///< top left, top right, bottom left, bottom right
+};
+
+/// Divides a depth map (metres, 0 = none) into planar tiles. A block of 16 px that holds more than
+/// two surfaces, or one that bends by more than `tolerance` (1/m), is divided into four, down to
+/// 2 px. Each surface of a block gets a tile of its own, one pixel larger than the surface in every
+/// direction, so that neighbours overlap; a renderer keeps of it what is near enough to the map's
+/// own depth.
+std::vector<DepthTile> planar_tiles(const DepthImage& depth_m, float tolerance);
+
+/// A coarse surface without holes behind all surfaces of a depth map: connected quads of
+/// `cell_px`, at the farther depth where a cell has several, and continued from around where it has
+/// none. Empty if the map has no depth at all.
+std::vector<DepthTile> backdrop_tiles(const DepthImage& depth_m, int cell_px);
+
+/// Alpha of colours for places that no rig has seen; those of seen places have more than 127.
+inline constexpr std::uint8_t never_seen_alpha = 64;
+
+/// The colours of backdrop_tiles(): for each cell the mean of its farther pixels (rgba8, alpha
+/// never_seen_alpha), continued where a cell has none.
+ColourImage backdrop_colours(const ColourImage& colour, const DepthImage& depth_m, int cell_px);
 
 /// One view of the background as planar tiles in main memory. Made without a GPU, on any thread.
 struct ProbeTiles {
@@ -64,5 +100,22 @@ struct BakedBackground {
 struct BakedExtra final : InstantExtra {
     BakedBackground background;
 };
+
+/// Returns the cameras of the probes for rigs with these cameras and picture sizes: one at each rig
+/// and one midway between any two that are neighbours. They see a little more than the rigs do.
+struct ProbeRig {
+    Eigen::Matrix3d K;
+    Pose world_from_camera;
+    cv::Size size;
+};
+std::vector<VirtualView> probe_views(std::span<const ProbeRig> rigs);
+
+/// Returns the parallax that an inverse depth of 1/m has between a probe and a view halfway to the
+/// next one, px m.
+double largest_parallax_px_m(std::span<const VirtualView> probes);
+
+/// Returns how far a probe lies from a view, m. A way ahead or back counts less than one aside,
+/// since it uncovers less.
+double way_m(const VirtualView& probe, const VirtualView& view);
 
 }  // namespace vantage

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host_app/baked/probe_placement.h"
+#include "host_app/baked/background_probe.h"
 #include "host_app/views/projection.h"
 
 namespace vantage {

@@ -5,7 +5,6 @@
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/vertex_array.h"
 #include "host_app/baked/background_probe.h"
-#include "host_app/surfaces/depth_picture.h"
 #include "host_app/surfaces/drawn_texture.h"
 
 namespace vantage {

@@ -13,7 +13,7 @@
 
 #include "common/geometry/pose.h"
 #include "host_app/flight/camera_state.h"
-#include "host_app/flight/moves/flight_recording.h"
+#include "host_app/flight/moves/move.h"
 
 namespace vantage {
 

@@ -16,7 +16,6 @@
 #include "common/config/calibration_file.h"
 #include "common/virtual_stage/performer.h"
 #include "host_app/commands/demo/demo_stage.h"
-#include "host_app/commands/demo/filmed_pair.h"
 #include "host_app/commands/live_session.h"
 
 namespace vantage {

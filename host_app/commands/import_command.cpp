@@ -7,7 +7,7 @@
 
 #include "common/base/cli/command.h"
 #include "common/base/cli/print_result.h"
-#include "host_app/view_sets/data_set_import.h"
+#include "host_app/view_sets/view_set.h"
 
 namespace vantage {
 namespace {

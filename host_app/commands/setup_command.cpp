@@ -25,7 +25,6 @@
 #include "host_app/setup/pairing_call.h"
 #include "host_app/setup/rig_browser.h"
 #include "host_app/setup/stage_file.h"
-#include "host_app/setup/stage_findings.h"
 
 namespace vantage {
 namespace {

@@ -15,7 +15,7 @@
 #include "common/take/take_pulses.h"
 #include "host_app/exports/edit_list.h"
 #include "host_app/exports/take_export.h"
-#include "host_app/replay/clip_store.h"
+#include "host_app/replay/clip.h"
 #include "host_app/session/options/common_options.h"
 #include "host_app/session/options/film_options.h"
 #include "host_app/takes/take_show.h"

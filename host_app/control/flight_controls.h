@@ -17,8 +17,8 @@
 #include "host_app/flight/camera_state.h"
 #include "host_app/flight/corridor.h"
 #include "host_app/flight/flight_plan.h"
-#include "host_app/flight/moves/flight_recording.h"
-#include "host_app/flight/stage_framing.h"
+#include "host_app/flight/moves/move.h"
+#include "host_app/flight/orbit_view.h"
 
 namespace vantage {
 

@@ -15,14 +15,14 @@
 #include "host_app/exports/film_parts.h"
 #include "host_app/exports/take_export.h"
 #include "host_app/foreground/motion/interpolated_frame_sets.h"
-#include "host_app/output/frame_set_timecode.h"
-#include "host_app/output/media/video_writer.h"
+#include "host_app/output/media/film_file.h"
+#include "host_app/output/picture_sink.h"
 #include "host_app/refine/gain_compensation.h"
 #include "host_app/sound/picture_sound.h"
 #include "host_app/sound/sound_source.h"
 #include "host_app/takes/take_frame_sets.h"
 #include "host_app/takes/take_show.h"
-#include "host_app/views/depth_views.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 namespace {

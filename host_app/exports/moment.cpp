@@ -5,7 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/base/log.h"
-#include "host_app/views/depth_views.h"
+#include "host_app/views/depth_view.h"
 #include "host_app/views/projection.h"
 
 namespace vantage {

@@ -11,7 +11,7 @@
 #include "common/base/files/folder.h"
 #include "host_app/camera_paths/camera_path.h"
 #include "host_app/exports/moment.h"
-#include "host_app/output/media/picture_converter.h"
+#include "host_app/output/media/picture_encoder.h"
 
 namespace vantage {
 namespace {

@@ -10,12 +10,10 @@
 
 #include "common/gl/objects/fence.h"
 #include "host_app/baked/background_probe.h"
-#include "host_app/baked/probe_placement.h"
 #include "host_app/fused/fused_colour.h"
-#include "host_app/fused/fused_depth.h"
 #include "host_app/refine/edge_confidence.h"
 #include "host_app/surfaces/rig_history.h"
-#include "host_app/surfaces/triangle_builder.h"
+#include "host_app/surfaces/rig_surface.h"
 #include "host_app/synthesis/rig_layers.h"
 
 namespace vantage {

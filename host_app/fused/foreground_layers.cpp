@@ -41,14 +41,9 @@ const DepthPicture& ForegroundLayers::show(LayerPass& find, LayerPass& show, con
     const auto ready = [&](LayerPass& pass) -> FullscreenPass& {
         FullscreenPass& drawing = pass.use(layers_, has_shares);
         Program& program = drawing.use();
-        int unit = layers_.first_free_unit();
-        const auto bind = [&](const char* name, const Texture& texture) {
-            texture.bind(unit);
-            program.set(name, unit++);
-        };
-        bind("background_depth", depth_m);
-        if (picture) bind("picture", *picture);
-        if (shares) bind("background_shares", *shares);
+        program.input("background_depth", depth_m);
+        if (picture) program.input("picture", *picture);
+        if (shares) program.input("background_shares", *shares);
         return drawing;
     };
     ready(find).draw_depth(shown_.target());

@@ -2,8 +2,7 @@
 
 #include <span>
 
-#include "host_app/surfaces/depth_picture.h"
-#include "host_app/synthesis/layer_pass.h"
+#include "host_app/surfaces/drawn_texture.h"
 #include "host_app/synthesis/rig_layers.h"
 
 namespace vantage {

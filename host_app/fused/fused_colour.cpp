@@ -1,12 +1,28 @@
 #include "host_app/fused/fused_colour.h"
 
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
+#include "host_app/views/tolerances.h"
 
 namespace vantage {
+
+FusedDepth::FusedDepth(const ShaderLibrary& library) {
+    for (std::size_t layers = 1; layers <= RigLayers::max_layers; ++layers)
+        passes_.emplace_back(library, "fused_depth.frag",
+                             ShaderDefines{{"LAYERS", std::to_string(layers)}});
+}
+
+const Texture& FusedDepth::find(const RigLayers& layers, cv::Size size) {
+    depth_m_.resize(size);
+    passes_[layers.used().size() - 1].draw(depth_m_.target(), [&](Program& program) {
+        layers.bind(program);
+        program.set("softness", same_surface_share);
+    });
+    return depth_m_.texture();
+}
+
 namespace {
 
-/// Ratio of two depths from which on they lie on two surfaces.
-constexpr float edge_ratio = 1.03f;
 /// The kinds of pixels, stored as depths for the depth test; finished pixels lie below the first.
 constexpr float inner_kind = 0.25f, empty_kind = 0.5f, edge_kind = 0.75f;
 
@@ -26,12 +42,11 @@ FusedColour::FusedColour(const ShaderLibrary& library)
 const Texture& FusedColour::sort(const Texture& fused_depth) {
     kinds_.resize(fused_depth.size());
     Program& program = kinds_pass_.use();
-    program.set("fused_depth", 0);
-    program.set("edge_ratio", edge_ratio);
+    program.input("fused_depth", fused_depth);
+    program.set("edge_ratio", 1 + view_edge_share);
     program.set("inner_kind", inner_kind);
     program.set("empty_kind", empty_kind);
     program.set("edge_kind", edge_kind);
-    fused_depth.bind(0);
     kinds_pass_.draw_depth(kinds_.target());
     return kinds_.texture();
 }
@@ -40,12 +55,10 @@ FullscreenPass& FusedColour::use(LayerPass& pass, const RigLayers& layers,
                                  const Texture& fused_depth, bool notes_origins) {
     FullscreenPass& drawing = pass.use(layers, notes_origins);
     Program& program = drawing.use();
-    const int unit = layers.first_free_unit();
-    program.set("fused_depth", unit);
-    program.set("edge_ratio", edge_ratio);
+    program.input("fused_depth", fused_depth);
+    program.set("edge_ratio", 1 + view_edge_share);
     program.set("remembered_confidence", RigSurface::remembered_confidence);
     program.set("remembered_alpha", remembered_alpha / 255.0f);
-    fused_depth.bind(unit);
     return drawing;
 }
 
@@ -59,15 +72,10 @@ void FusedColour::draw_on_baked(const RigLayers& layers, const DepthPicture& bak
                                 bool notes_origins) {
     FullscreenPass& pass = use(on_baked_, layers, baked.depth_m(), notes_origins);
     Program& program = pass.use();
-    int unit = layers.first_free_unit() + 1;
-    const auto bind = [&](const char* name, const Texture& texture) {
-        texture.bind(unit);
-        program.set(name, unit++);
-    };
-    bind("baked_colour", baked.colour());
-    bind("foreground", foreground.colour());
-    bind("foreground_depth", foreground.depth_m());
-    if (notes_origins) bind("foreground_shares", *foreground.shares());
+    program.input("baked_colour", baked.colour());
+    program.input("foreground", foreground.colour());
+    program.input("foreground_depth", foreground.depth_m());
+    if (notes_origins) program.input("foreground_shares", *foreground.shares());
     pass.overwrite(into.target());
 }
 

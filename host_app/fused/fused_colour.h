@@ -1,11 +1,28 @@
 #pragma once
 
+#include <vector>
+
 #include "common/gl/fullscreen_pass.h"
-#include "host_app/surfaces/depth_picture.h"
+#include "common/gl/two_stage_pass.h"
 #include "host_app/surfaces/drawn_texture.h"
-#include "host_app/synthesis/layer_pass.h"
+#include "host_app/synthesis/rig_layers.h"
 
 namespace vantage {
+
+/// Finds the surface that counts at every pixel of a virtual view, from all rigs' surfaces there.
+/// Belongs to one context.
+class FusedDepth {
+  public:
+    explicit FusedDepth(const ShaderLibrary& library);
+
+    /// Precondition: at least one layer was drawn. The result is r32f in the view's size, metres,
+    /// 0 = nothing, negative = inpainted; valid until the next call.
+    const Texture& find(const RigLayers& layers, cv::Size size);
+
+  private:
+    std::vector<TwoStagePass> passes_;  ///< one for every number of layers
+    DrawnTexture depth_m_{TextureFormat::r32f, Filter::nearest, false, DrawnWith::depth_test};
+};
 
 /// Colours the fused surface of a virtual view in three passes, so that no pixel costs more than it
 /// needs. Most pixels lie inside a surface that the two most useful rigs see well; others also

@@ -7,12 +7,11 @@
 #include "host_app/baked/baked_painter.h"
 #include "host_app/fused/foreground_layers.h"
 #include "host_app/fused/fused_colour.h"
-#include "host_app/fused/fused_depth.h"
 #include "host_app/fused/impulse_filter.h"
 #include "host_app/fused/own_picture.h"
 #include "host_app/fused/staged_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
-#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {

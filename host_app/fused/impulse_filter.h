@@ -2,6 +2,7 @@
 
 #include "common/gl/two_stage_pass.h"
 #include "host_app/surfaces/drawn_texture.h"
+#include "host_app/views/tolerances.h"
 
 namespace vantage {
 
@@ -19,7 +20,16 @@ class ImpulseFilter {
 
     /// `depth_m` is r32f, 0 where there is nothing; its sign has no meaning. Returns the filtered
     /// image, rgba8 with unchanged alpha; valid until the next call.
-    const Texture& filter(const Texture& picture, const Texture& depth_m);
+    const Texture& filter(const Texture& picture, const Texture& depth_m) {
+        filtered_.resize(picture.size());
+        pass_.draw(filtered_.target(), [&](Program& program) {
+            program.input("picture", picture);
+            program.input("depth_m", depth_m);
+            program.set("tolerance", static_cast<float>(tolerance) / 255);
+            program.set("edge_ratio", depth_edge_ratio);
+        });
+        return filtered_.texture();
+    }
 
   private:
     TwoStagePass pass_;

@@ -6,7 +6,7 @@
 #include "common/gl/fullscreen_pass.h"
 #include "host_app/surfaces/drawn_texture.h"
 #include "host_app/surfaces/instant.h"
-#include "host_app/views/virtual_view.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 

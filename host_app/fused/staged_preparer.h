@@ -17,8 +17,8 @@
 #include "host_app/refine/edge_confidence.h"
 #include "host_app/refine/multi_view_refinement.h"
 #include "host_app/surfaces/recycle_pool.h"
-#include "host_app/surfaces/rig_roster.h"
-#include "host_app/surfaces/triangle_builder.h"
+#include "host_app/surfaces/rig_history.h"
+#include "host_app/surfaces/rig_surface.h"
 
 namespace vantage {
 

@@ -7,7 +7,7 @@
 #include "common/gl/objects/vertex_array.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
-#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"
 
@@ -71,7 +71,7 @@ class FacetRenderer final : public ViewRenderer {
         map.K = surface.K_depth();
         const VirtualView grid{1, 1, Eigen::Matrix3d::Identity(), world_from_grid};
         draw_.use();
-        draw_.set("depth_map", 0);
+        draw_.input("depth_map", surface.depth());
         draw_.set("grid_from_pixel",
                   Eigen::Matrix4f(
                       target_from_pixel(grid, camera.world_from_camera, map.K).cast<float>()));
@@ -84,7 +84,6 @@ class FacetRenderer final : public ViewRenderer {
                   Eigen::Matrix4f(pixel_from_target_pixel(map, view).cast<float>()));
         draw_.set("voxel_m", static_cast<float>(voxel_m));
         draw_.set("reach_m", static_cast<float>(half_diagonal * voxel_m));
-        surface.depth().bind(0);
         vertices_.bind();
         glDrawArrays(GL_TRIANGLES, 0, 6 * surface.depth().size().area());
         glDisable(GL_DEPTH_TEST);

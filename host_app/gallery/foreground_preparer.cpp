@@ -9,8 +9,7 @@ constexpr int known_from = 3;
 }  // namespace
 
 void ForegroundPreparer::copy(const Texture& source, const Framebuffer& target) {
-    copy_.use().set("source", 0);
-    source.bind(0);
+    copy_.use().input("source", source);
     copy_.draw(target);
 }
 

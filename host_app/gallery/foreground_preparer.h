@@ -7,8 +7,8 @@
 #include "host_app/background/background_model.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/surfaces/recycle_pool.h"
-#include "host_app/surfaces/rig_roster.h"
-#include "host_app/surfaces/triangle_builder.h"
+#include "host_app/surfaces/rig_history.h"
+#include "host_app/surfaces/rig_surface.h"
 
 namespace vantage {
 

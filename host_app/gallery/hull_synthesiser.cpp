@@ -8,7 +8,7 @@
 
 #include "host_app/gallery/foreground_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
-#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"
 
@@ -16,8 +16,6 @@ namespace vantage {
 namespace {
 
 constexpr std::size_t most_rigs = RigLayers::max_layers;
-/// Relative depth difference up to which two rigs' backgrounds count as the same surface.
-constexpr float background_softness = 0.005f;
 /// Range of depth that is searched for foreground, relative to the rigs' typical depth.
 constexpr double nearest_share = 0.3, farthest_share = 3;
 
@@ -41,7 +39,7 @@ std::vector<SeenRig> rigs_with_silhouettes(const Instant& instant) {
 class HullRenderer final : public ViewRenderer {
   public:
     explicit HullRenderer(const ShaderLibrary& library)
-        : blend_background_(library, "mesh_blend.frag", background_softness), blender_(library) {
+        : blend_background_(library, "mesh_blend.frag", same_surface_share), blender_(library) {
         for (std::size_t rigs = 1; rigs <= most_rigs; ++rigs) {
             const ShaderDefines defines{{"RIGS", std::to_string(rigs)}};
             depth_.emplace_back(library, "hull_depth.frag", defines);
@@ -87,23 +85,18 @@ class HullRenderer final : public ViewRenderer {
                                           [&](const SeenRig& one) { return one.now == rig; }));
     }
 
-    /// On units 0 to 2 * rigs - 1.
     void bind_silhouettes(Program& program, const VirtualView& target) {
         for (std::size_t i = 0; i < used_.size(); ++i) {
-            const int unit = static_cast<int>(i), rigs = static_cast<int>(used_.size());
             const SeenRig& rig = used_[i];
-            const auto set = [&](const char* name, const auto& value) {
-                program.set(fmt::format("{}[{}]", name, i), value);
-            };
             const Texture& matte = rig.apart->matte->share.texture();
-            set("matte", unit);
-            set("background_depth", rigs + unit);
-            set("pixel_from_target",
+            program.input("matte", i, matte);
+            program.input("background_depth", i, rig.apart->background->depth());
+            program.set(
+                "pixel_from_target", i,
                 Eigen::Matrix4f(pixel_from_target_pixel(rig.now->camera(), target).cast<float>()));
-            set("picture_size", Eigen::Vector2f(static_cast<float>(matte.width_px()),
-                                                static_cast<float>(matte.height_px())));
-            matte.bind(unit);
-            rig.apart->background->depth().bind(rigs + unit);
+            program.set("picture_size", i,
+                        Eigen::Vector2f(static_cast<float>(matte.width_px()),
+                                        static_cast<float>(matte.height_px())));
         }
     }
 
@@ -118,10 +111,10 @@ class HullRenderer final : public ViewRenderer {
         bind_silhouettes(program, target);
         program.set("range_m", Eigen::Vector2f(static_cast<float>(nearest_share * typical_m),
                                                static_cast<float>(farthest_share * typical_m)));
-        const int unit = 2 * static_cast<int>(used_.size());
-        program.set("background_behind", unit);
+        program.input("background_behind", background_behind
+                                               ? *background_behind
+                                               : used_.front().apart->background->depth());
         program.set("has_background", background_behind ? 1.0f : 0.0f);
-        if (background_behind) background_behind->bind(unit);
         pass.draw(into.target());
     }
 
@@ -143,23 +136,17 @@ class HullRenderer final : public ViewRenderer {
         Program& program = pass.use();
         bind_silhouettes(program, view);
         const Pose target_from_world = view.world_from_camera.inverse();
-        // The shader uses the silhouettes' matrices and not their textures: those units are free.
-        int unit = 0;
-        const auto bind = [&](const std::string& name, const Texture& texture) {
-            program.set(name, unit);
-            texture.bind(unit++);
-        };
         for (std::size_t i = 0; i < used_.size(); ++i) {
-            bind(fmt::format("rig_hull[{}]", i), rig_hulls_[i].texture());
-            bind(fmt::format("colour[{}]", i), used_[i].now->surface->colour());
-            program.set(fmt::format("centre[{}]", i),
+            program.input("rig_hull", i, rig_hulls_[i].texture());
+            program.input("colour", i, used_[i].now->surface->colour());
+            program.set("centre", i,
                         Eigen::Vector3f((target_from_world *
                                          used_[i].now->camera().world_from_camera.translation())
                                             .cast<float>()));
         }
-        bind("hull", hull_.texture());
-        bind("background_colour", set.colour());
-        bind("background_behind", set.depth_m());
+        program.input("hull", hull_.texture());
+        program.input("background_colour", set.colour());
+        program.input("background_behind", set.depth_m());
         program.set("ray_from_pixel", Eigen::Matrix3f(view.K.inverse().cast<float>()));
         pass.draw(laid_.target());
         return laid_;

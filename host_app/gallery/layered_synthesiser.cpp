@@ -63,15 +63,10 @@ class LayeredRenderer final : public ViewRenderer {
         both_.resize({view.width_px, view.height_px});
         blend_.use(next_layers_, false).draw(next_.target());
         Program& program = under_.use();
-        int unit = 0;
-        const auto bind = [&](const char* name, const Texture& texture) {
-            program.set(name, unit);
-            texture.bind(unit++);
-        };
-        bind("colour", nearest.colour());
-        bind("depth_m", nearest.depth_m());
-        bind("next_colour", next_.colour());
-        bind("next_depth_m", next_.depth_m());
+        program.input("colour", nearest.colour());
+        program.input("depth_m", nearest.depth_m());
+        program.input("next_colour", next_.colour());
+        program.input("next_depth_m", next_.depth_m());
         under_.draw(both_.target());
         return both_;
     }

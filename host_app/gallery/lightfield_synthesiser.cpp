@@ -3,12 +3,11 @@
 #include <vector>
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include "host_app/gallery/camera_plane.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
-#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"
 
@@ -17,8 +16,6 @@ namespace {
 
 /// Number of cameras whose rays one pass adds.
 constexpr std::size_t cameras_per_pass = 4;
-/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
-constexpr float softness = 0.005f;
 
 std::vector<Pose> poses_of(const Instant& instant) {
     std::vector<Pose> poses;
@@ -35,7 +32,7 @@ class LightFieldRenderer final : public ViewRenderer {
           aperture_m_(choices.number("aperture-m")),
           is_corrected_(choices.word("rays") == "corrected"),
           end_(library, "lightfield_end.frag"),
-          surface_(library, "mesh_blend.frag", softness),
+          surface_(library, "mesh_blend.frag", same_surface_share),
           layers_(library),
           filler_(library) {
         for (std::size_t cameras = 1; cameras <= cameras_per_pass; ++cameras)
@@ -69,8 +66,7 @@ class LightFieldRenderer final : public ViewRenderer {
                 add(instant, plane, focal, view, i);
                 std::swap(sums_[0], sums_[1]);
             }
-            end_.use().set("sum", 0);
-            sums_[0].texture().bind(0);
+            end_.use().input("sum", sums_[0].texture());
             end_.draw(picture_.target());
         }
         return filler_.fill(picture_.colour(), picture_.depth_m());
@@ -124,26 +120,21 @@ class LightFieldRenderer final : public ViewRenderer {
                     Eigen::Vector3f(target_from_plane.translation().cast<float>()));
         program.set("ray_from_pixel", Eigen::Matrix3f(view.K.inverse().cast<float>()));
         program.set("corrected", is_corrected_ ? 1.0f : 0.0f);
-        int unit = 0;
-        const auto bind = [&](const std::string& name, const Texture& texture) {
-            program.set(name, unit);
-            texture.bind(unit++);
-        };
-        bind("sum_before", sums_[0].texture());
-        bind("surface", geometry_.depth_m());
+        program.input("sum_before", sums_[0].texture());
+        program.input("surface", geometry_.depth_m());
         for (std::size_t i = 0; i < count; ++i) {
             const RigSurface& camera = *instant.rigs[first + i].surface;
             const PlacedCamera& placed = plane.cameras[first + i];
-            bind(fmt::format("colour[{}]", i), camera.colour());
-            bind(fmt::format("source_depth[{}]", i), camera.depth());
+            program.input("colour", i, camera.colour());
+            program.input("source_depth", i, camera.depth());
             program.set(
-                fmt::format("pixel_from_target[{}]", i),
+                "pixel_from_target", i,
                 Eigen::Matrix4f(pixel_from_target_pixel(camera.camera(), view).cast<float>()));
-            program.set(fmt::format("place[{}]", i), Eigen::Vector2f(placed.at_m.cast<float>()));
+            program.set("place", i, Eigen::Vector2f(placed.at_m.cast<float>()));
             Eigen::Vector4d reach = placed.reach_m;
             for (double& side : reach)
                 if (side > 0) side = std::max(side, 0.5 * aperture_m_);
-            program.set(fmt::format("reach[{}]", i), Eigen::Vector4f(reach.cast<float>()));
+            program.set("reach", i, Eigen::Vector4f(reach.cast<float>()));
         }
         pass.draw(sums_[1].target());
     }

@@ -2,14 +2,11 @@
 
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
-#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 
 namespace vantage {
 namespace {
-
-/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
-constexpr float softness = 0.005f;
 
 /// The system of Edling and Franke (2006): every rig's depth map as a quad grid displaced by depth,
 /// stretched quads cut by an edge filter, and the rigs' meshes blended by viewing angle where they
@@ -17,7 +14,7 @@ constexpr float softness = 0.005f;
 class MeshRenderer final : public ViewRenderer {
   public:
     explicit MeshRenderer(const ShaderLibrary& library)
-        : blend_(library, "mesh_blend.frag", softness), blender_(library) {}
+        : blend_(library, "mesh_blend.frag", same_surface_share), blender_(library) {}
 
     const Texture& render(const Instant& instant, const VirtualView& view,
                           const RenderLevel& level) override {

@@ -3,12 +3,11 @@
 #include <vector>
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 
 #include "host_app/gallery/relief_warp.h"
 #include "host_app/pipeline/instant_preparer.h"
 #include "host_app/synthesis/layer_blender.h"
-#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/depth_view.h"
 #include "host_app/views/projection.h"
@@ -17,8 +16,6 @@
 namespace vantage {
 namespace {
 
-/// Relative depth difference up to which the surfaces of two rigs count as the same surface.
-constexpr float softness = 0.005f;
 /// Range of depth in which lines of sight are searched, relative to the rig's typical depth.
 constexpr double nearest_share = 0.3, farthest_share = 4;
 
@@ -50,18 +47,17 @@ class PrewarpRenderer final : public ViewRenderer {
         for (std::size_t i = 0; i < layers.size(); ++i) warps_[i].warp(*layers[i].surface, view);
         FullscreenPass& pass = compose_[layers.size() - 1];
         Program& program = pass.use();
-        program.set("softness", softness);
+        program.set("softness", same_surface_share);
         for (std::size_t i = 0; i < layers.size(); ++i) {
             const ReliefWarp& relief = warps_[i];
             const DepthView& camera = layers[i].surface->camera();
             const Pose rig_from_target =
                 camera.world_from_camera.inverse() * view.world_from_camera;
             const auto set = [&](const char* name, const auto& value) {
-                program.set(fmt::format("{}[{}]", name, i), value);
+                program.set(name, i, value);
             };
-            const int unit = static_cast<int>(i), count = static_cast<int>(layers.size());
-            set("warped_colour", unit);
-            set("warped_m", count + unit);
+            program.input("warped_colour", i, relief.colour());
+            program.input("warped_m", i, relief.depth_m());
             set("ray",
                 Eigen::Matrix3f((rig_from_target.linear() * view.K.inverse()).cast<float>()));
             set("eye", Eigen::Vector3f(rig_from_target.translation().cast<float>()));
@@ -73,8 +69,6 @@ class PrewarpRenderer final : public ViewRenderer {
                                              .cast<float>()));
             set("spread", depth_spread(camera));
             set("presence", layers[i].presence);
-            relief.colour().bind(unit);
-            relief.depth_m().bind(count + unit);
         }
         pass.draw(composed_.target());
     }
@@ -91,7 +85,7 @@ class SearchRenderer final : public ViewRenderer {
   public:
     explicit SearchRenderer(const ShaderLibrary& library)
         : search_(library, "relief_search.frag"),
-          blend_(library, "mesh_blend.frag", softness),
+          blend_(library, "mesh_blend.frag", same_surface_share),
           blender_(library) {}
 
     const Texture& render(const Instant& instant, const VirtualView& view,
@@ -102,7 +96,7 @@ class SearchRenderer final : public ViewRenderer {
                 Program& program = search_.use();
                 DepthView map = surface.camera();
                 map.K = surface.K_depth();
-                program.set("depth_map", 0);
+                program.input("depth_map", surface.depth());
                 program.set("pixel_from_target",
                             Eigen::Matrix4f(pixel_from_target_pixel(map, view).cast<float>()));
                 const double typical_m = surface.median_depth_m();
@@ -111,7 +105,6 @@ class SearchRenderer final : public ViewRenderer {
                                             static_cast<float>(farthest_share * typical_m)));
                 program.set("near_m", static_cast<float>(near_m));
                 program.set("edge_ratio", depth_edge_ratio);
-                surface.depth().bind(0);
                 search_.draw_depth(depth_only);
             });
         return blender_.blend(view, blend_);

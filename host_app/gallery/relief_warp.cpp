@@ -67,10 +67,8 @@ void ReliefWarp::warp(const RigSurface& surface, const VirtualView& target) {
 
 void ReliefWarp::run(Program& pass, const Texture& colour, const Texture& depth_m, int stage,
                      int lines) {
-    pass.set("colour", 0);
-    pass.set("depth_map", 1);
-    colour.bind(0);
-    depth_m.bind(1);
+    pass.input("colour", colour);
+    pass.input("depth_map", depth_m);
     glBindImageTexture(0, stages_->colour[stage].name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA8);
     glBindImageTexture(1, stages_->depth_m[stage].name(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
     pass.dispatch_over(lines, 1);

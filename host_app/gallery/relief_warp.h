@@ -4,7 +4,7 @@
 
 #include "common/gl/objects/program.h"
 #include "host_app/surfaces/rig_surface.h"
-#include "host_app/views/virtual_view.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "host_app/gallery/tour_preparer.h"
-#include "host_app/surfaces/depth_picture.h"
-#include "host_app/synthesis/hole_filler.h"
+#include "host_app/surfaces/drawn_texture.h"
+#include "host_app/surfaces/pull_push.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"
 #include "host_app/views/view_ranking.h"
@@ -148,15 +148,10 @@ class TourRenderer final : public ViewRenderer {
         program.set("picture_size", Eigen::Vector2f(static_cast<float>(picture.width_px()),
                                                     static_cast<float>(picture.height_px())));
         program.set("ray_from_pixel", Eigen::Matrix3f(view.K.inverse().cast<float>()));
-        int unit = 0;
-        const auto bind = [&](const char* name, const Texture& texture) {
-            program.set(name, unit);
-            texture.bind(unit++);
-        };
-        bind("background_colour", told.rigs[number].background->colour());
-        bind("picture", picture);
-        bind("matte", told.rigs[number].matte->share.texture());
-        bind("numbers", *tour.rigs[number].labels->numbers);
+        program.input("background_colour", told.rigs[number].background->colour());
+        program.input("picture", picture);
+        program.input("matte", told.rigs[number].matte->share.texture());
+        program.input("numbers", *tour.rigs[number].labels->numbers);
         draw_.draw(picture_.target());
     }
 

@@ -13,7 +13,6 @@
 #include "common/base/bounded_queue.h"
 #include "common/base/percentiles.h"
 #include "common/base/time/rate_meter.h"
-#include "host_app/output/frame_set_timecode.h"
 #include "host_app/output/output_target.h"
 #include "host_app/output/picture_sink.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/gl/context/driver_lock.h"
-#include "host_app/views/depth_views.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 namespace {

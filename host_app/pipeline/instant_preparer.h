@@ -5,9 +5,8 @@
 #include "host_app/background/background_access.h"
 #include "host_app/surfaces/instant.h"
 #include "host_app/surfaces/recycle_pool.h"
-#include "host_app/surfaces/triangle_builder.h"
+#include "host_app/surfaces/rig_surface.h"
 #include "host_app/views/depth_view.h"
-#include "host_app/views/virtual_view.h"
 
 namespace vantage {
 

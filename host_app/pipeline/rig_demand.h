@@ -9,8 +9,6 @@
 #include "common/base/time/time.h"
 #include "common/receive/frame_set.h"
 #include "host_app/views/depth_view.h"
-#include "host_app/views/surface_samples.h"
-#include "host_app/views/virtual_view.h"
 
 namespace vantage {
 

@@ -8,7 +8,7 @@
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/vertex_array.h"
 #include "host_app/pipeline/instant_preparer.h"
-#include "host_app/synthesis/layer_ranking.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/views/projection.h"
 
@@ -60,8 +60,8 @@ class PointsRenderer final : public ViewRenderer {
         glDepthFunc(GL_LESS);
         glDisable(GL_BLEND);
         draw_.use();
-        draw_.set("depth_map", 0);
-        draw_.set("picture", 1);
+        draw_.input("depth_map", source.depth());
+        draw_.input("picture", source.colour());
         const Pose& pose = source.camera().world_from_camera;
         draw_.set("clip_from_pixel",
                   Eigen::Matrix4f((clip_from_target(view, near_m) *
@@ -72,8 +72,6 @@ class PointsRenderer final : public ViewRenderer {
             "centre",
             Eigen::Vector3f((pose.inverse() * view.world_from_camera.translation()).cast<float>()));
         draw_.set("scale", static_cast<float>(view.K(0, 0) / source.K_depth()(0, 0)));
-        source.depth().bind(0);
-        source.colour().bind(1);
         vertices_.bind();
         glDrawArrays(GL_POINTS, 0, source.depth().width_px() * source.depth().height_px());
         glDisable(GL_DEPTH_TEST);

@@ -22,9 +22,8 @@ class CoarseDepth {
         const cv::Size cells(columns, std::max(1, size.height * columns / size.width));
         grid_.resize(cells);
         Program& program = pass_.use();
-        program.set("depth_m", 0);
+        program.input("depth_m", depth_m);
         program.set("cells", Eigen::Vector2i(cells.width, cells.height));
-        depth_m.bind(0);
         pass_.draw(grid_.target());
         readback_.begin(grid_.texture());
     }

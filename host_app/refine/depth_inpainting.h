@@ -1,18 +1,18 @@
 #pragma once
 
 #include <map>
-#include <vector>
+#include <utility>
 
 #include "common/gl/fullscreen_pass.h"
 #include "host_app/surfaces/drawn_texture.h"
+#include "host_app/surfaces/pull_push.h"
 
 namespace vantage {
 
 /// Depth inpainting: gives depth to pixels of a rig that have none, so that their colour can be
 /// shown where no rig has measured the place. The depth comes from the nearest known pixels of
 /// similar colour, the farther side's first: a place that a stereo rig cannot match is mostly
-/// background that only one of its cameras sees. Where none is near it comes from pull and push
-/// (Gortler et al., 1996) on inverse depth.
+/// background that only one of its cameras sees. Where none is near it comes from pull and push.
 class DepthInpainting {
   public:
     explicit DepthInpainting(const ShaderLibrary& library);
@@ -28,18 +28,14 @@ class DepthInpainting {
                const Framebuffer& closed);
 
   private:
-    /// The first level has half the map's size, every other one half the size of the one before.
-    struct Level {
-        DrawnTexture pulled{TextureFormat::r32f}, pushed{TextureFormat::r32f};
-    };
-    struct Pyramid {
+    struct Sized {
         DrawnTexture inpainted{TextureFormat::r32f};
-        std::vector<Level> levels;
+        PullPush::Pyramid pyramid;
     };
-    Pyramid& pyramid(cv::Size size);
 
-    FullscreenPass inpaint_, pull_, push_;
-    std::map<std::pair<int, int>, Pyramid> pyramids_;  ///< by size; rigs of one size share one
+    FullscreenPass inpaint_;
+    PullPush fill_;
+    std::map<std::pair<int, int>, Sized> sized_;  ///< by size; rigs of one size share one
 };
 
 }  // namespace vantage

@@ -7,9 +7,9 @@
 
 #include "common/base/time/rate_meter.h"
 #include "common/take/take_recorder.h"
-#include "host_app/control/ports/control_ports.h"
+#include "host_app/control/ports/control_port.h"
 #include "host_app/desk/air_verdict.h"
-#include "host_app/output/frame_set_timecode.h"
+#include "host_app/output/picture_sink.h"
 #include "host_app/session/live_show.h"
 
 namespace vantage {

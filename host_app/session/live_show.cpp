@@ -9,8 +9,7 @@
 #include "common/base/time/pulse_grid.h"
 #include "common/gl/context/limits.h"
 #include "host_app/output/contact_sheet.h"
-#include "host_app/views/depth_views.h"
-#include "host_app/views/surface_samples.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 namespace {

@@ -15,8 +15,8 @@
 #include "host_app/desk/windows/operator_window.h"
 #include "host_app/desk/windows/screen_windows.h"
 #include "host_app/metrics/open_metrics.h"
-#include "host_app/output/frame_set_timecode.h"
 #include "host_app/output/output_supervisor.h"
+#include "host_app/output/picture_sink.h"
 #include "host_app/replay/transport.h"
 #include "host_app/session/report/show_log.h"
 

@@ -7,7 +7,6 @@
 #include "common/base/log.h"
 #include "host_app/output/output_url.h"
 #include "host_app/sound/alsa_capture.h"
-#include "host_app/sound/sound_ahead.h"
 #include "host_app/sound/sound_source.h"
 
 namespace vantage {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "host_app/output/output_url.h"
-#include "host_app/sound/sound_ahead.h"
 #include "host_app/sound/sound_decoder.h"
 #include "host_app/sound/sound_source.h"
 

@@ -3,7 +3,6 @@
 #include <mutex>
 
 #include "common/base/log.h"
-#include "host_app/sound/sound_ahead.h"
 #include "host_app/sound/sound_source.h"
 
 namespace vantage {

@@ -1,18 +1,122 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include "host_app/surfaces/background_state.h"
-#include "host_app/surfaces/denoised_colour.h"
-#include "host_app/surfaces/depth_uploader.h"
+#include "common/gl/objects/framebuffer.h"
+#include "common/gl/objects/texture.h"
 #include "host_app/surfaces/drawn_texture.h"
 #include "host_app/surfaces/rig_surface.h"
 
 namespace vantage {
+
+/// GPU state of temporal denoising: the denoised picture (rgba8, with mip levels) and the mean
+/// (rgba16f). The old copies of both are read while the new ones are drawn. The mean's alpha counts
+/// its instants and falls where the picture changes.
+class DenoisedColour {
+  public:
+    /// Whether picture() and mean() hold anything.
+    bool is_drawn() const { return is_drawn_; }
+    const Texture& picture() const { return sized_->pictures[sized_->now]; }
+    const Texture& mean() const { return sized_->means[sized_->now]; }
+
+    /// Starts again if the size changes.
+    void resize(cv::Size size) {
+        if (sized_ && sized_->pictures[0].size() == size) return;
+        sized_.emplace(size);
+        is_drawn_ = false;
+    }
+    /// Continues from a mean that was read back: rgba16f, of the same size.
+    void restore(const cv::Mat& mean) {
+        sized_->means[sized_->now].upload(mean);
+        is_drawn_ = true;
+    }
+    /// The target of the next draw: the picture and the new mean.
+    const Framebuffer& next_target(cv::Size size) {
+        resize(size);
+        return sized_->targets[1 - sized_->now];
+    }
+    void finish() {
+        sized_->now = 1 - sized_->now;
+        is_drawn_ = true;
+    }
+    void generate_mipmaps() { sized_->pictures[sized_->now].generate_mipmaps(); }
+    void forget() { is_drawn_ = false; }
+
+  private:
+    struct Sized {
+        std::array<Texture, 2> pictures, means;
+        std::array<Framebuffer, 2> targets;
+        std::size_t now = 0;
+
+        explicit Sized(cv::Size size)
+            : pictures{picture_of(size), picture_of(size)},
+              means{mean_of(size), mean_of(size)},
+              targets{Framebuffer{&pictures[0], &means[0]}, Framebuffer{&pictures[1], &means[1]}} {}
+        static Texture picture_of(cv::Size size) {
+            return {TextureFormat::rgba8, size.width, size.height, Filter::linear, true};
+        }
+        static Texture mean_of(cv::Size size) {
+            return {TextureFormat::rgba16f, size.width, size.height, Filter::linear};
+        }
+    };
+
+    std::optional<Sized> sized_;
+    bool is_drawn_ = false;
+};
+
+/// GPU state of a rig's background depth: the state (rgba32f, see background_learn.frag; red is the
+/// depth in metres), of which the old copy is read while the new one is drawn, and the kinds of the
+/// newest instant's pixels (rgba8, see background_compare.frag).
+class BackgroundState {
+  public:
+    /// Whether state() and seen() hold anything.
+    bool is_drawn() const { return is_drawn_; }
+    const Texture& state() const { return sized_->states[sized_->now]; }
+    const Texture& seen() const { return seen_.texture(); }
+
+    /// Starts again if the size changes.
+    void resize(cv::Size size) {
+        if (sized_ && seen().size() == size) return;
+        seen_.resize(size);
+        sized_.emplace(size);
+        is_drawn_ = false;
+    }
+    const Framebuffer& seen_target() const { return seen_.target(); }
+    const Framebuffer& next_target() const { return sized_->targets[1 - sized_->now]; }
+    /// Continues from a state that was read back: rgba32f, of the same size.
+    void restore(const cv::Mat4f& state) {
+        sized_->states[sized_->now].upload(state);
+        is_drawn_ = true;
+    }
+    void finish() {
+        sized_->now = 1 - sized_->now;
+        is_drawn_ = true;
+    }
+    void forget() { is_drawn_ = false; }
+
+  private:
+    struct Sized {
+        std::array<Texture, 2> states;
+        std::array<Framebuffer, 2> targets;
+        std::size_t now = 0;
+
+        explicit Sized(cv::Size size)
+            : states{state_of(size), state_of(size)},
+              targets{Framebuffer{&states[0]}, Framebuffer{&states[1]}} {}
+        static Texture state_of(cv::Size size) {
+            return {TextureFormat::rgba32f, size.width, size.height};
+        }
+    };
+
+    DrawnTexture seen_{TextureFormat::rgba8, Filter::nearest, false, DrawnWith::depth_test};
+    std::optional<Sized> sized_;
+    bool is_drawn_ = false;
+};
 
 /// Time between two instants, if the caller does not give it.
 inline constexpr double nominal_dt_s = 1.0 / 30;
@@ -169,6 +273,34 @@ class RigHistory {
     std::optional<int> prepared_rank_;
     float presence_ = 1;
     SurfaceSamples samples_;
+};
+
+/// Time in which a rig fades in or out, s: short, but no visible jump.
+inline constexpr double fade_s = 1.0 / 6;
+
+/// The rigs of a stage, by name. A rig that disappears keeps its background until it comes back.
+/// Belongs to the preparer's thread and GL context.
+class RigRoster {
+  public:
+    /// Uploads the views of an instant that have depth, filmed `dt_s` after the one before, and
+    /// returns their rigs. A rig that appears fades in; a rig that is missing fades out with its
+    /// last surfaces. If no view belongs to a known rig, all rigs are replaced.
+    std::vector<RigHistory*> upload(std::span<const DepthView> views, double dt_s);
+    /// Hides all rigs at once, also those that are fading.
+    void cut();
+    /// Forgets all that was learnt of all rigs.
+    void forget();
+
+    /// The rigs of the last upload and those that are fading out.
+    const std::vector<RigHistory*>& shown() const { return shown_; }
+    /// All rigs, also those that are away.
+    std::vector<RigHistory*> known() const;
+    /// Whether `rig` is one of them and has a background.
+    bool has_learnt(const RigHistory* rig) const;
+
+  private:
+    std::vector<std::unique_ptr<RigHistory>> rigs_;
+    std::vector<RigHistory*> shown_;
 };
 
 }  // namespace vantage

@@ -4,16 +4,75 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "common/colour/colour_pass.h"
-#include "host_app/surfaces/depth_grid.h"
-#include "host_app/surfaces/depth_uploader.h"
+#include "common/geometry/pose.h"
+#include "common/gl/fullscreen_pass.h"
+#include "common/gl/objects/buffer.h"
+#include "common/gl/objects/program.h"
+#include "common/gl/objects/texture.h"
+#include "common/gl/shader_library.h"
 #include "host_app/surfaces/drawn_texture.h"
 #include "host_app/surfaces/recycle_pool.h"
 #include "host_app/views/depth_view.h"
-#include "host_app/views/surface_samples.h"
 
 namespace vantage {
+
+/// Uploads a view's depth. Disparities are uploaded as 16 bits for each pixel and converted to
+/// metres by a table of all 65536 values, so that every GPU gives the same bits as the CPU. The
+/// context that was current at construction must be current at every call.
+class DepthUploader {
+  public:
+    /// Uploads to `into` (r32f, metres, 0 = unknown), which gets the size of the view's depth.
+    /// Precondition: the view has disparities.
+    void upload(const DepthView& view, DrawnTexture& into);
+
+  private:
+    const Texture& table_of(const DisparityScale& scale);
+
+    ShaderLibrary library_;
+    FullscreenPass pass_{library_, "disparity_depth.frag"};
+    std::optional<Texture> steps_;
+    std::vector<std::pair<DisparityScale, Texture>> tables_;  ///< one for each geometry
+};
+
+/// Uploads a view's depth map or disparities to `into`, as DepthUploader does. Creates `uploader`
+/// when a view first has disparities. Precondition: the view has depth.
+void upload_depth(const DepthView& view, std::unique_ptr<DepthUploader>& uploader,
+                  DrawnTexture& into);
+
+/// Pixels of a depth map that a quad of its grid spans; a coarse quad that is cut becomes quads of
+/// one pixel.
+enum class QuadGrid { fine = 1, coarse = 2 };
+
+/// The number of indices of a depth map's triangles, two for each pixel.
+int triangle_indices(cv::Size depth_size);
+
+/// Triangles of a depth map as an indirect draw: only the GPU knows their number.
+struct IndirectTriangles {
+    Buffer indices, command;
+    int capacity;  ///< indices
+
+    explicit IndirectTriangles(int max_indices);
+    /// Removes all triangles and prepares for a shader that writes new ones: binds the indices to
+    /// storage 0 and the command to storage 1.
+    void begin() const;
+    /// Draws with the program and the vertex array in use.
+    void draw() const;
+};
+
+/// A camera's depth map as a grid of quads. Refers to textures and buffers that must outlive it.
+struct DepthGrid {
+    const Texture& depth_m;  ///< metres in its first channel, 0 = unknown, negative = inpainted
+    const IndirectTriangles& triangles;
+    Eigen::Matrix3d K;  ///< of the depth map
+    Pose world_from_camera;
+    QuadGrid grid = QuadGrid::fine;
+    float spread = 0;                         ///< depth_spread() of the camera
+    const IndirectTriangles* rims = nullptr;  ///< drawn with the triangles if not null
+    double rim_px = 0;  ///< reach of the rims from the middles of their pixels
+};
 
 /// The surface of one rig at one instant: depth, triangles and colour on the GPU. Made on the GL
 /// context that prepares instants. It does not change after its instant is published, and any
@@ -93,5 +152,34 @@ class RigSurface {
 /// `corrector` when a view first needs it.
 void upload_colour(const DepthView& view, std::unique_ptr<ColourCorrector>& corrector,
                    Texture& into);
+
+/// Builds the triangles of a depth map's regular grid of quads, with a vertex for each pixel. No
+/// triangle connects neighbouring pixels of different surfaces: an edge filter, a high-pass of the
+/// inverse depth, removes them.
+class TriangleBuilder {
+  public:
+    explicit TriangleBuilder(const ShaderLibrary& library);
+
+    /// The default bend of build(): below the noise of the depth.
+    static constexpr float default_bend = 0.6f;
+
+    /// Builds the triangles of the grid. In the coarse grid, a block of quads that bends by less
+    /// than `bend` standard deviations of the inverse depth becomes two triangles.
+    void build(const DepthGrid& grid, float bend = default_bend);
+    /// Builds only the blocks of a coarse grid in the selected tiles of a picture of this size (see
+    /// TilePass).
+    void build_where(const DepthGrid& grid, const Texture& tiles, cv::Size picture,
+                     float bend = default_bend);
+
+    /// Builds the rims, which the fine grid lacks at the edges of surfaces: half a pixel all round,
+    /// and all objects that are one pixel wide. They are drawn with the fine grid.
+    void build_rims(RigSurface& surface);
+
+  private:
+    void build(const DepthGrid& grid, float bend, Program& program);
+    void set_edge_filter(Program& program, const DepthGrid& grid);
+
+    Program build_, build_coarse_, build_parts_, build_rims_;
+};
 
 }  // namespace vantage

@@ -4,9 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "host_app/surfaces/depth_picture.h"
-#include "host_app/synthesis/hole_filler.h"
-#include "host_app/synthesis/layer_pass.h"
+#include "host_app/surfaces/drawn_texture.h"
+#include "host_app/surfaces/pull_push.h"
 #include "host_app/synthesis/rig_layers.h"
 #include "host_app/synthesis/synthesiser.h"
 

@@ -91,10 +91,10 @@ const Texture& SourceMapOverlay::lay(const Texture& picture, const PixelOrigins&
     // Before anything is bound: making a texture binds it.
     overlaid_.resize(picture.size());
     Program& program = pass_.use();
-    program.set("picture", 0);
-    program.set("shares", 1);
+    program.input("picture", picture);
+    program.input("shares", *origins.shares);
     for (std::size_t i = 0; i < origins.rigs.size(); ++i)
-        program.set(fmt::format("rig_colour[{}]", i), as_float(colour_of(origins.rigs[i])));
+        program.set("rig_colour", i, as_float(colour_of(origins.rigs[i])));
     program.set("filled_colour",
                 as_float({source_map_inpainted_colour[0], source_map_inpainted_colour[1],
                           source_map_inpainted_colour[2]}));
@@ -102,8 +102,6 @@ const Texture& SourceMapOverlay::lay(const Texture& picture, const PixelOrigins&
                 as_float({source_map_remembered_colour[0], source_map_remembered_colour[1],
                           source_map_remembered_colour[2]}));
     program.set("remembered_alpha", remembered_alpha / 255.0f);
-    picture.bind(0);
-    origins.shares->bind(1);
     pass_.draw(overlaid_.target());
     return overlaid_.texture();
 }

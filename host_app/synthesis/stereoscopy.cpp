@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "host_app/views/surface_samples.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 namespace {
@@ -183,10 +183,8 @@ const Texture& EyeMosaic::picture() {
         std::optional<FullscreenPass>& pass = rows ? rows_ : anaglyph_;
         if (!pass) pass.emplace(*library_, rows ? "eyes_rows.frag" : "eyes_anaglyph.frag");
         Program& program = pass->use();
-        program.set("left", 0);
-        program.set("right", 1);
-        left_.texture().bind(0);
-        right_.texture().bind(1);
+        program.input("left", left_.texture());
+        program.input("right", right_.texture());
         pass->draw(picture_.target());
     }
     return picture_.texture();

@@ -10,7 +10,6 @@
 #include "common/base/error.h"
 #include "common/base/files/atomic_file.h"
 #include "common/image/image_file.h"
-#include "host_app/view_sets/data_set_import.h"
 #include "host_app/view_sets/view_set.h"
 
 namespace vantage {

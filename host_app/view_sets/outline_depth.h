@@ -4,7 +4,6 @@
 
 #include "common/image/image.h"
 #include "host_app/views/depth_view.h"
-#include "host_app/views/virtual_view.h"
 
 namespace vantage {
 

@@ -1,16 +1,29 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "common/base/shared_bytes.h"
 #include "common/colour/colour_correction.h"
 #include "common/geometry/pose.h"
 #include "common/geometry/rectified_stereo.h"
 #include "common/image/image.h"
+#include "common/receive/frame_set.h"
+#include "common/wire/frame_message.h"
 #include "host_app/views/tolerances.h"
 
 namespace vantage {
+
+/// The virtual camera: a pinhole camera with any intrinsics.
+struct VirtualView {
+    int width_px = 0, height_px = 0;
+    Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+    Pose world_from_camera = Pose::Identity();
+};
 
 /// Converts a rig's disparities to depth. A value; any thread may use it.
 class DisparityScale {
@@ -73,5 +86,21 @@ inline float depth_spread(const DepthView& camera) {
     return f_baseline > 0 ? static_cast<float>(static_cast<double>(disparity_sigma_px) / f_baseline)
                           : 0.0f;
 }
+
+/// Converts a rig's frame to a view, which shares its pixels.
+DepthView depth_view_of(const RigFrame& frame);
+/// Converts the frames of a frame set that have pictures, with the colour corrections of their
+/// rigs.
+std::vector<DepthView> depth_views_of(const FrameSet& set,
+                                      const std::map<std::string, ColourCorrection>& colours);
+
+/// A few surface points of a view, as a summary of the places that it sees.
+struct SurfaceSamples {
+    std::vector<Eigen::Vector3d> points_m;  ///< in world coordinates
+    double median_depth_m = 0;              ///< 0 if the view has no depth
+};
+
+/// Samples at most 144 surface points of a view, evenly over its picture.
+SurfaceSamples surface_samples(const DepthView& view);
 
 }  // namespace vantage

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 
 #include "host_app/views/depth_view.h"
-#include "host_app/views/virtual_view.h"
 
 namespace vantage {
 

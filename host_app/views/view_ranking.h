@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "host_app/views/virtual_view.h"
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 

@@ -25,9 +25,11 @@ int shader_format(PixelFormat format) {
     return 0;
 }
 
+/// Grey formats and YUYV have one plane, and no use for chroma.
 template <class Planes>
-void bind_planes(const Planes& planes, int first_unit) {
-    for (const auto& plane : planes) plane.bind(first_unit++);
+void set_inputs(Program& program, const Planes& planes) {
+    program.input("raw", planes.front());
+    program.input("chroma", planes.back());
 }
 
 /// A view of the plane's bytes; OpenCV wants them writable and nothing writes.
@@ -78,9 +80,7 @@ const Texture& CameraIntake::bring(const LentPicture& picture) {
     const RawPlanes raw = planes(picture);
     FullscreenPass& pass = pass_for(picture.raw.format);
     Program& program = pass.use();
-    raw.bind(0);
-    program.set("plane", 0);
-    program.set("chroma", 1);
+    raw.inputs(program);
     program.set("first_column_px", raw.first_column_px);
     pass.overwrite(target_);
     return colour_;
@@ -107,11 +107,11 @@ RawPlanes CameraIntake::planes(const LentPicture& picture) {
         copy(picture);
         ++counts_.copied;
     }
-    const auto bind = [this, imports](int first_unit) {
+    const auto inputs = [this, imports](Program& program) {
         if (imports)
-            bind_planes(*imports, first_unit);
+            set_inputs(program, *imports);
         else
-            bind_planes(copies_, first_unit);
+            set_inputs(program, copies_);
     };
     std::vector<cv::Size> plane_sizes;
     for (const PicturePlane& plane : planes_of(picture.raw))
@@ -120,7 +120,7 @@ RawPlanes CameraIntake::planes(const LentPicture& picture) {
             .size = colour_.size(),
             .first_column_px = picture.view.x,
             .plane_sizes = std::move(plane_sizes),
-            .bind = bind};
+            .inputs = inputs};
 }
 
 const std::vector<DmaBufTexture>& CameraIntake::imported(const LentPicture& picture) {

@@ -13,6 +13,7 @@
 // The foreground's layers: colours are premultiplied by alpha, the share of a pixel; source_depth is negative outside the
 // matte.
 #include "rig_layers.glsl"
+#include "tolerances.glsl"
 #include "two_stages.glsl"
 #if !PLAIN
 #include "sharp_sample.glsl"
@@ -31,12 +32,10 @@ layout(location = 0) out vec4 shown;
 layout(location = 1) out float shown_z;
 
 const float body = 0.1;        // relative depth: the silhouettes of surfaces farther away from a point are ignored
-const float hidden = 0.97;     // a background nearer than this share of the foreground's depth hides it
 const float about_px = 1.5;    // error of depth: silhouettes are widened by it for other rigs
 const float least_say = 1e-3;  // weight of a rig that does not see the point, used where no rig does
 const float whole = 0.9;       // share from which on surfaces behind are not examined
 const float seen_share = 0.5;  // share of a rig's pixel from which on the rig sees its foreground there
-const float one_body = 0.04;   // relative depth within which two rigs show the same place
 
 struct Seen {
     vec3 sum;             // of colours times alpha
@@ -90,7 +89,7 @@ bool sees_past(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z) {
     vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
     vec2 margin = min(uv, 1.0 - uv);
     if (q.z <= 0.0 || min(margin.x, margin.y) < 0.0 || textureLod(pictures, uv, 0.0).a < seen_share) return false;
-    return hidden * abs(textureLod(map, uv, 0.0).r) > q.z;
+    return (1.0 - view_edge_share) * abs(textureLod(map, uv, 0.0).r) > q.z;
 }
 
 void main() {
@@ -139,11 +138,11 @@ void main() {
         float w = (1.0 - smoothstep(1.0, 2.0, off)) * presence[i] / (apart(ray * z[i], centre[i]) + 1e-5);     \
         sum += w * z[i];                                                                                       \
         weights += w;                                                                                          \
-        if (z[i] > nearest * (1.0 + one_body)) next = min(next, z[i]);                                         \
+        if (z[i] > nearest * depth_edge_ratio) next = min(next, z[i]);                                         \
     }
         FOR_LAYERS(AVERAGE)
         float there = weights > 0.0 ? sum / weights : nearest;
-        if (set_z > 0.0 && set_z < hidden * there) {
+        if (set_z > 0.0 && set_z < (1.0 - view_edge_share) * there) {
             bool is_refuted = false;
 #define SEE_PAST(i) is_refuted = is_refuted || sees_past(i, colour[i], source_depth[i], pixel, set_z);
             FOR_LAYERS(SEE_PAST)

@@ -8,6 +8,7 @@
 #define BAKED 0  // 1: on a baked background, which has the colours that no rig shows, and behind a foreground
 #endif
 #include "rig_layers.glsl"
+#include "tolerances.glsl"
 
 uniform sampler2D fused_depth;  // metres, 0 = nothing, negative = inpainted
 #if BAKED
@@ -23,7 +24,6 @@ uniform float softness;         // relative depth within which two surfaces are 
 layout(location = 0) out vec4 fused;
 layout(location = 1) out float fused_z;
 
-const float past = 1.03;   // share of a surface's depth from which on a rig sees past it
 const int past_steps = 3;  // from such a surface to the one that the rig sees
 const float typical = 100.0;  // the scene's typical depth, relative to the near plane's
 
@@ -104,7 +104,7 @@ void show_background(ivec2 at) {
 #define ADD(i) add(i, colour[i], source_depth[i], vec2(at), z, sum, weight, shares, confidence);
     FOR_LAYERS(ADD)
     if (weight == 0.0) {
-        show_what_rigs_see(vec2(at), z, past);
+        show_what_rigs_see(vec2(at), z, 1.0 + view_edge_share);
         return;
     }
     fused = vec4(sum / weight, alpha_of(own > 0.0, confidence));

@@ -12,6 +12,10 @@ TOLERANCE(disparity_sigma_px, 0.15)
 
 // Two neighbouring depths of one rig with a larger ratio lie on two surfaces.
 TOLERANCE(depth_edge_ratio, 1.04)
+// The same as a share of the depth, for depths that several rigs agree on: in a rendered view and between baked tiles.
+TOLERANCE(view_edge_share, 0.03)
+// Relative depth difference up to which the surfaces of two rigs are blended as one in a rendered view.
+TOLERANCE(same_surface_share, 0.005)
 
 // Two depths of one place are one surface if they differ by less than a fixed share of the depth (errors of calibration
 // and matching that do not depend on the distance) plus so many standard deviations of the disparity.

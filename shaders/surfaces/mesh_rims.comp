@@ -2,6 +2,7 @@
 // edge, and lacks objects that are one pixel wide. So each corner of a cut quad that lies on its nearest surface gets its
 // pixel's quarter of the quad. Vertices are 9 * pixel + 3 * (1 + y) + (1 + x), with x and y the side of the pixel's middle.
 #include "mesh_joints.glsl"
+#include "tolerances.glsl"
 
 layout(local_size_x = 32, local_size_y = 4) in;
 
@@ -10,8 +11,6 @@ uniform int capacity;  // indices
 layout(std430, binding = 0) writeonly buffer Rims { uint indices[]; };
 layout(std430, binding = 1) buffer Command { uint count; };  // the first word of an indirect draw
 
-const float one_surface = 0.97;  // share of the nearest inverse depth, above which a corner lies on the nearest surface
-
 void main() {
     ivec2 size = textureSize(depth_map, 0);
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
@@ -19,7 +18,7 @@ void main() {
     Quad q = quad_at(at, 1, size);
     if (q.ab && q.cd && q.ac && q.bd) return;
     vec4 inverse = vec4(q.a, q.b, q.c, q.d);
-    float least = one_surface * max(max(q.a, q.b), max(q.c, q.d));
+    float least = (1.0 - view_edge_share) * max(max(q.a, q.b), max(q.c, q.d));
     uint corners = 0u;
     for (int i = 0; i < 4; ++i) corners += inverse[i] > least ? 1u : 0u;
     if (corners == 0u) return;

@@ -1,14 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "common/base/files/embedded_text.h"
-#include "host_app/control/hid/described_decoder.h"
 #include "host_app/control/hid/jog_family.h"
 #include "host_app/control/table/control_command.h"
 
@@ -58,6 +60,25 @@ AxisMap read_axis_map(TomlTable& table);
 ButtonMap read_button_map(const TomlTable& table, const std::string& control,
                           const std::string& action);
 
+/// Position and type of one control in a jog wheel's reports.
+struct ReportField {
+    enum class Kind {
+        delta,    ///< steps since the previous report
+        counter,  ///< counts steps and wraps; the first report only sets the start
+        axis,     ///< position of a spring-centred control, `full_scale` at its end
+        buttons,  ///< a bit mask; bit n is the button NAME with the number n + 1
+    };
+    Kind kind = Kind::delta;
+    std::string name;
+    std::optional<std::uint8_t> report_id;  ///< empty if the device's reports have no id
+    int byte = 0;                           ///< counted with the id, which is byte 0
+    int bit = 0;                            ///< lowest bit within that byte, 0..7
+    int bits = 8;                           ///< little-endian; 1..32
+    bool is_signed = true;                  ///< for delta and axis
+    double centre = 0;                      ///< for an axis: its value at rest
+    double full_scale = 127;                ///< for an axis: distance from there to its end
+};
+
 /// Profile of a wheel: the action of each control and, for a wheel without a family, the layout of
 /// its reports. Each profile is one file (hw_config/jog/ documents every key).
 struct WheelProfile {
@@ -97,5 +118,9 @@ double response_of(const AxisMap& map, double position);
 
 /// The last profile for a device; null if there is none.
 const WheelProfile* find_profile(const std::vector<WheelProfile>& profiles, JogId id);
+
+/// Creates a decoder from the report description of a wheel's profile. It refuses reports with
+/// another id, or too short for their fields.
+std::unique_ptr<JogDecoder> make_described_decoder(std::vector<ReportField> fields);
 
 }  // namespace vantage

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/gl/context/limits.h"
-#include "host_app/desk/desk_layout.h"
+#include "host_app/desk/desk_arrangement.h"
 #include "host_app/desk/feed/desk_values.h"
 #include "host_app/desk/feed/stage_map.h"
 #include "host_app/session/report/live_report.h"

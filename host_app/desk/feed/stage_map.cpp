@@ -7,7 +7,7 @@
 
 #include <Eigen/LU>
 
-#include "host_app/views/depth_views.h"
+#include "host_app/views/depth_view.h"
 #include "host_app/views/projection.h"
 
 namespace vantage {

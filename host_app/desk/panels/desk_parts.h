@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "host_app/desk/desk_arrangement.h"
-#include "host_app/desk/desk_layout.h"
 #include "host_app/desk/desk_state.h"
 #include "host_app/desk/windows/pen.h"
 

@@ -5,7 +5,7 @@
 #include <imgui.h>
 
 #include "common/gl/objects/texture.h"
-#include "host_app/desk/desk_layout.h"
+#include "host_app/desk/desk_arrangement.h"
 
 namespace vantage {
 

@@ -10,7 +10,7 @@
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/texture.h"
 #include "common/gl/objects/vertex_array.h"
-#include "host_app/desk/desk_layout.h"
+#include "host_app/desk/desk_arrangement.h"
 
 namespace vantage {
 

@@ -9,7 +9,7 @@
 #include "common/base/time/time.h"
 #include "host_app/flight/flight_controller.h"
 #include "host_app/flight/flight_plan.h"
-#include "host_app/flight/moves/flight_recording.h"
+#include "host_app/flight/moves/move.h"
 
 namespace vantage {
 

@@ -4,7 +4,7 @@
 
 #include "common/base/error.h"
 #include "common/base/files/output_path.h"
-#include "host_app/output/media/video_writer.h"
+#include "host_app/output/media/film_file.h"
 #include "host_app/output/output_target.h"
 
 namespace vantage {

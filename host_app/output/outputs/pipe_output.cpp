@@ -10,7 +10,7 @@
 #include "common/base/error.h"
 #include "common/base/files/unique_fd.h"
 #include "common/base/time/pulse_grid.h"
-#include "host_app/output/media/picture_converter.h"
+#include "host_app/output/media/picture_encoder.h"
 #include "host_app/output/output_target.h"
 
 extern "C" {

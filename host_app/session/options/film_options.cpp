@@ -4,7 +4,7 @@
 #include "common/base/error.h"
 #include "common/base/time/pulse_grid.h"
 #include "host_app/flight/flight_plan.h"
-#include "host_app/output/media/video_writer.h"
+#include "host_app/output/media/film_file.h"
 #include "host_app/session/options/common_options.h"
 #include "host_app/takes/take_show.h"
 

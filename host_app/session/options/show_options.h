@@ -11,7 +11,7 @@
 #include "common/config/stage_config.h"
 #include "host_app/desk/desk_arrangement.h"
 #include "host_app/flight/moves/flight_store.h"
-#include "host_app/replay/clip_store.h"
+#include "host_app/replay/clip.h"
 #include "host_app/session/live_show.h"
 #include "host_app/session/options/common_options.h"
 

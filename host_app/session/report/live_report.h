@@ -14,7 +14,7 @@
 #include "common/receive/stage_receiver.h"
 #include "common/take/take_recorder.h"
 #include "host_app/control/hid/jog_devices.h"
-#include "host_app/control/ports/control_ports.h"
+#include "host_app/control/ports/control_port.h"
 #include "host_app/flight/corridor.h"
 #include "host_app/flight/moves/move.h"
 #include "host_app/flight/orbit_view.h"

@@ -22,13 +22,10 @@ const Texture& TemporalPass::run(const Texture& disparity, const Texture& pictur
     exposure_.run(picture);
     const std::size_t next = 1 - newest_;
     Program& program = pass_.use();
-    program.set("disparity", 0);
-    program.set("picture", 1);
-    program.set("state", 2);
+    program.input("disparity", disparity);
+    program.input("picture", picture);
+    program.input("state", states_[newest_]);
     program.set("has_state", has_state_ ? 1 : 0);
-    disparity.bind(0);
-    picture.bind(1);
-    states_[newest_].bind(2);
     exposure_.gain().bind_storage(0);
     pass_.overwrite(targets_[next]);
     newest_ = next;

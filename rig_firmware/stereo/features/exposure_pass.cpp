@@ -21,9 +21,8 @@ ExposurePass::ExposurePass(const ShaderLibrary& library)
 
 void ExposurePass::run(const Texture& picture) {
     program_.use();
-    program_.set("picture", 0);
+    program_.input("picture", picture);
     program_.set("has_luma", has_luma_ ? 1 : 0);
-    picture.bind(0);
     exposure_.bind_storage(0);
     program_.dispatch_over(group_lanes, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

@@ -20,10 +20,9 @@ LumaPass::LumaPass(const ShaderLibrary& library, const StereoLayout& layout, Pic
 void LumaPass::convert(const Texture& picture, const Buffer& luma, std::optional<Memory>& memory) {
     if (memory) memory->exposure.run(picture);
     program_.use();
-    program_.set("picture", 0);
+    program_.input("picture", picture);
     program_.set("size", Eigen::Vector2i(layout_.width_px, layout_.height_px));
     program_.set("row_words", layout_.luma_row_words());
-    picture.bind(0);
     luma.bind_storage(0);
     if (memory) {
         program_.set("has_state", has_state_ ? 1 : 0);

@@ -7,8 +7,7 @@ PictureWordsPass::PictureWordsPass(const ShaderLibrary& library, cv::Size size)
 
 void PictureWordsPass::run(const Texture& picture, const Buffer& words) {
     Program& program = pass_.use();
-    program.set("picture", 0);
-    picture.bind(0);
+    program.input("picture", picture);
     words.bind_storage(0);
     pass_.dispatch();
 }

@@ -15,7 +15,7 @@
 #include "host_app/foreground/motion/rig_agreement.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
-#include "host_app/views/depth_views.h"
+#include "host_app/views/depth_view.h"
 #include "tests/bench/support/cpu_time.h"
 #include "tests/bench/support/size_option.h"
 #include "tests/bench/synthesis/matching_rig.h"

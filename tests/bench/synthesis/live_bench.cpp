@@ -15,7 +15,7 @@
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
 #include "host_app/synthesis/synthesiser.h"
-#include "host_app/views/depth_views.h"
+#include "host_app/views/depth_view.h"
 #include "tests/bench/support/cpu_time.h"
 #include "tests/bench/support/run_bench.h"
 #include "tests/bench/support/size_option.h"

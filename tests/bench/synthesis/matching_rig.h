@@ -9,7 +9,6 @@
 #include "common/virtual_stage/virtual_stage.h"
 #include "common/wire/codec/chroma.h"
 #include "host_app/views/depth_view.h"
-#include "host_app/views/virtual_view.h"
 #include "rig_firmware/stereo/disparity/temporal_pass.h"
 #include "rig_firmware/stereo/features/reduce_pass.h"
 #include "rig_firmware/stereo/matcher.h"

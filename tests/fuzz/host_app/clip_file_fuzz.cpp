@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "host_app/replay/clip_store.h"
+#include "host_app/replay/clip.h"
 #include "tests/fuzz/seeds/input_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

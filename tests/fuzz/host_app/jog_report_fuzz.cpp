@@ -6,8 +6,8 @@
 #include <set>
 #include <string>
 
-#include "host_app/control/hid/described_decoder.h"
 #include "host_app/control/hid/jog_family.h"
+#include "host_app/control/hid/wheel_profile.h"
 
 namespace {
 

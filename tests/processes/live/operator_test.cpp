@@ -16,7 +16,7 @@
 #include "common/base/time/time.h"
 #include "common/base/time/timecode.h"
 #include "common/image/image_file.h"
-#include "host_app/replay/clip_store.h"
+#include "host_app/replay/clip.h"
 #include "tests/processes/live/attended.h"
 #include "tests/processes/live/camera_on_air.h"
 #include "tests/processes/live/steered_show.h"

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "host_app/replay/clip_store.h"
+#include "host_app/replay/clip.h"
 #include "tests/processes/live/steered_show.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"

@@ -5,7 +5,6 @@
 
 #include "common/base/error.h"
 #include "host_app/control/hid/jog_family.h"
-#include "host_app/control/hid/jog_report.h"
 
 namespace vantage {
 namespace {

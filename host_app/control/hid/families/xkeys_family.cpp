@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include "host_app/control/hid/jog_family.h"
-#include "host_app/control/hid/jog_report.h"
 
 namespace vantage {
 namespace {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
-#include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
 #include "host_app/control/ports/midi_sequencer.h"
 #include "host_app/control/ports/midi_surface.h"

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
-#include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
 #include "host_app/control/ports/messages/osc_message.h"
 #include "host_app/control/ports/sockets.h"

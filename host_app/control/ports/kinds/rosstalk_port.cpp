@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "host_app/control/ports/command_intake.h"
 #include "host_app/control/ports/control_port.h"
 #include "host_app/control/ports/messages/rosstalk.h"
 #include "host_app/control/ports/sockets.h"

@@ -1,6 +1,6 @@
-#include "host_app/setup/stage_findings.h"
-
 #include <gtest/gtest.h>
+
+#include "host_app/setup/stage_file.h"
 
 namespace vantage {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "common/gl/context/egl_context.h"
 #include "common/gl/tile_pass.h"
-#include "host_app/surfaces/triangle_builder.h"
+#include "host_app/surfaces/rig_surface.h"
 
 namespace vantage {
 namespace {

@@ -1,11 +1,8 @@
-#include "host_app/baked/depth_tiles.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "host_app/baked/background_probe.h"
-#include "host_app/baked/probe_placement.h"
 
 namespace vantage {
 namespace {

@@ -1,9 +1,9 @@
-#include "host_app/desk/desk_layout.h"
-
 #include <cstdlib>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "host_app/desk/desk_arrangement.h"
 
 namespace vantage {
 namespace {

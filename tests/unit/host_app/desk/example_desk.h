@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/gl/objects/texture.h"
-#include "host_app/desk/desk_layout.h"
+#include "host_app/desk/desk_arrangement.h"
 #include "host_app/desk/desk_state.h"
 
 namespace vantage {

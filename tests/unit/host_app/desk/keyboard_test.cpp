@@ -1,8 +1,8 @@
-#include "host_app/desk/windows/keyboard.h"
-
 #include <map>
 
 #include <gtest/gtest.h>
+
+#include "host_app/desk/windows/gl_window.h"
 
 namespace vantage {
 namespace {

@@ -9,7 +9,7 @@
 #include "common/base/time/timecode.h"
 #include "common/image/image.h"
 #include "common/take/take_pulses.h"
-#include "host_app/output/media/video_writer.h"
+#include "host_app/output/media/film_file.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/thrown_sentence.h"

@@ -1,9 +1,8 @@
-#include "host_app/flight/moves/flight_recording.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "host_app/flight/moves/move.h"
 #include "tests/unit/host_app/flight/looking.h"
 
 namespace vantage {

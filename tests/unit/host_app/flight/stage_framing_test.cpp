@@ -1,6 +1,6 @@
-#include "host_app/flight/stage_framing.h"
-
 #include <gtest/gtest.h>
+
+#include "host_app/flight/orbit_view.h"
 
 namespace vantage {
 namespace {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "host_app/surfaces/triangle_builder.h"
+#include "host_app/surfaces/rig_surface.h"
 #include "host_app/synthesis/rig_layers.h"
 
 namespace vantage {

@@ -1,5 +1,3 @@
-#include "host_app/synthesis/hole_filler.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 
 #include "common/gl/context/egl_context.h"
 #include "common/image/image.h"
+#include "host_app/surfaces/pull_push.h"
 #include "tests/support/filled_texture.h"
 
 namespace vantage {

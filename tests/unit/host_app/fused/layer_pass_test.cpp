@@ -1,11 +1,10 @@
-#include "host_app/synthesis/layer_pass.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
-#include "host_app/surfaces/depth_picture.h"
+#include "host_app/surfaces/drawn_texture.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "tests/unit/host_app/fused/drawn_surfaces.h"
 
 namespace vantage {

@@ -1,11 +1,10 @@
-#include "host_app/synthesis/mesh_rasteriser.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
 #include "common/gl/fullscreen_pass.h"
+#include "host_app/synthesis/rig_layers.h"
 #include "tests/unit/common/gl/shader_folder.h"
 #include "tests/unit/host_app/fused/drawn_surfaces.h"
 

@@ -10,7 +10,7 @@
 #include "common/image/image_file.h"
 #include "common/virtual_stage/virtual_rig.h"
 #include "common/virtual_stage/virtual_stage.h"
-#include "host_app/surfaces/rig_roster.h"
+#include "host_app/surfaces/rig_history.h"
 #include "host_app/synthesis/synthesiser.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "tests/support/deviation_along_time.h"

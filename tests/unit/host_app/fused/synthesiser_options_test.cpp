@@ -1,7 +1,6 @@
-#include "host_app/synthesis/synthesiser_options.h"
-
 #include <gtest/gtest.h>
 
+#include "host_app/synthesis/synthesiser.h"
 #include "tests/support/thrown_sentence.h"
 
 namespace vantage {

@@ -7,7 +7,6 @@
 #include <Eigen/LU>
 
 #include "host_app/views/depth_view.h"
-#include "host_app/views/virtual_view.h"
 
 namespace vantage {
 

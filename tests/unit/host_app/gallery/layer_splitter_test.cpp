@@ -1,11 +1,10 @@
-#include "host_app/gallery/layer_splitter.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
+#include "host_app/gallery/layered_preparer.h"
 
 namespace vantage {
 namespace {

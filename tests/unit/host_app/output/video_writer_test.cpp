@@ -1,5 +1,3 @@
-#include "host_app/output/media/video_writer.h"
-
 #include <cmath>
 #include <fstream>
 #include <iterator>

@@ -1,10 +1,9 @@
-#include "host_app/control/ports/camera_pacer.h"
-
 #include <mutex>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "host_app/control/ports/tracking_sinks.h"
 #include "tests/support/eventually.h"
 
 namespace vantage {

@@ -14,7 +14,7 @@ namespace {
 
 const cv::Vec4b red(200, 40, 40, 255), blue(40, 40, 200, 255);
 
-/// The reference of depth_pull.frag: for each window of four by four pixels, the mean inverse depth
+/// The reference of fill_pull.frag: for each window of four by four pixels, the mean inverse depth
 /// of those within 5 % of the farthest.
 DepthImage pulled(const DepthImage& map) {
     DepthImage half(cv::Size((map.cols + 1) / 2, (map.rows + 1) / 2), 0.0f);

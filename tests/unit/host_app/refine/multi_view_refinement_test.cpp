@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "common/gl/context/egl_context.h"
-#include "host_app/surfaces/rig_roster.h"
+#include "host_app/surfaces/rig_history.h"
 #include "tests/unit/host_app/fused/wall_and_square.h"
 
 namespace vantage {

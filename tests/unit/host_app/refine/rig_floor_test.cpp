@@ -5,7 +5,7 @@
 
 #include "common/gl/context/egl_context.h"
 #include "host_app/refine/multi_view_refinement.h"
-#include "host_app/surfaces/rig_roster.h"
+#include "host_app/surfaces/rig_history.h"
 
 namespace vantage {
 namespace {

@@ -1,9 +1,8 @@
-#include "host_app/replay/clip_store.h"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
 
+#include "host_app/replay/clip.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/source_folder.h"
 #include "tests/support/thrown_sentence.h"

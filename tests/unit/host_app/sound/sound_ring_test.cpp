@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "host_app/sound/sound_ahead.h"
+#include "host_app/sound/sound_source.h"
 
 namespace vantage {
 namespace {

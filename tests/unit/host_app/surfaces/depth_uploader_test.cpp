@@ -1,11 +1,10 @@
-#include "host_app/surfaces/depth_uploader.h"
-
 #include <bit>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
+#include "host_app/surfaces/rig_surface.h"
 
 namespace vantage {
 namespace {

@@ -1,6 +1,6 @@
-#include "host_app/views/depth_views.h"
-
 #include <gtest/gtest.h>
+
+#include "host_app/views/depth_view.h"
 
 namespace vantage {
 namespace {

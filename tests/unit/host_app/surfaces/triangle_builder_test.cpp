@@ -1,5 +1,3 @@
-#include "host_app/surfaces/triangle_builder.h"
-
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/gl/context/egl_context.h"
+#include "host_app/surfaces/rig_surface.h"
 
 namespace vantage {
 namespace {

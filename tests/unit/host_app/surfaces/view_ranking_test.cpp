@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "host_app/views/depth_view.h"
 #include "host_app/views/projection.h"
-#include "host_app/views/surface_samples.h"
 
 namespace vantage {
 namespace {

@@ -1,5 +1,3 @@
-#include "host_app/view_sets/data_set_import.h"
-
 #include <fstream>
 
 #include <Eigen/LU>

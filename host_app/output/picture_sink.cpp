@@ -1,4 +1,4 @@
-#include "host_app/output/frame_set_timecode.h"
+#include "host_app/output/picture_sink.h"
 
 namespace vantage {
 
