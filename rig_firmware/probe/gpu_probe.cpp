@@ -4,7 +4,12 @@
 #include "common/config/gpu_frame_model.h"
 #include "common/gl/context/egl_context.h"
 #include "common/gl/context/limits.h"
+#include "common/gl/objects/gpu_timer.h"
+#include "common/gl/objects/texture.h"
+#include "common/gl/shader_library.h"
+#include "common/image/image.h"
 #include "rig_firmware/probe/probe.h"
+#include "rig_firmware/stereo/matcher.h"
 
 namespace vantage {
 namespace {
@@ -14,6 +19,63 @@ constexpr std::array<const char*, 2> import_by_egl = {"EGL_EXT_image_dma_buf_imp
                                                       "EGL_EXT_image_dma_buf_import_modifiers"};
 constexpr std::array<const char*, 2> import_by_gl = {"GL_OES_EGL_image",
                                                      "GL_OES_EGL_image_external_essl3"};
+
+/// The rate at which the presets are judged.
+constexpr double rate_hz = 30;
+
+/// What the presets take by the model of this GPU.
+void add_modelled_fits(ProbePart& part, const GpuFrameModel& model) {
+    constexpr MatchedFrame frames[] = {{640, 400, 64, rate_hz},
+                                       {640, 480, 64, rate_hz, 960, 720},
+                                       {960, 720, 64, rate_hz},
+                                       {1280, 800, 128, rate_hz}};
+    for (const MatchedFrame& frame : frames) {
+        part.lines.push_back(model.fit_text(frame));
+        part.facts["fits"].push_back(nlohmann::json(model.fit_json(frame)));
+    }
+}
+
+/// What the presets take on a GPU without a model: each matches a dark pair a few times. Compiling
+/// their shaders takes some seconds the first time.
+void add_measured_fits(ProbePart& part) {
+    constexpr int width_px = 640, height_px = 400, disparities = 64, repeats = 3;
+    constexpr std::array presets = {"quality", "balanced", "fast"};
+    constexpr double limit_ms = 1e3 / rate_hz * 2 / 3;
+    const ShaderLibrary shaders;
+    Texture dark(TextureFormat::rgba8, width_px, height_px);
+    dark.upload(ColourImage(height_px, width_px, cv::Vec4b(0, 0, 0, 255)));
+    nlohmann::json times;
+    std::string text, best;
+    double last_ms = 0;
+    for (const char* name : presets) {
+        const MatchSettings settings{.width_px = width_px,
+                                     .height_px = height_px,
+                                     .disparities = disparities,
+                                     .preset = parse_preset(name)};
+        const std::unique_ptr<Matcher> matcher =
+            make_matcher(default_matcher(settings.preset), shaders, settings);
+        matcher->match(dark, dark);  // drivers finish compiling at the first draw call
+        last_ms = median_gpu_ms(repeats, [&] { matcher->match(dark, dark); });
+        times[name] = last_ms;
+        text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", name, last_ms);
+        if (best.empty() && last_ms <= limit_ms) best = name;
+    }
+    part.facts["fits"].push_back(
+        {{"width_px", width_px},
+         {"height_px", height_px},
+         {"disparities", disparities},
+         {"rate_hz", rate_hz},
+         {"preset", best.empty() ? nlohmann::json() : nlohmann::json(best)},
+         {"measured_ms", std::move(times)}});
+    part.lines.push_back(fmt::format(
+        "{}x{} with {} disparities at {:.4g} Hz on this GPU: {} (measured without rectification, "
+        "ms: {})",
+        width_px, height_px, disparities, rate_hz,
+        best.empty()
+            ? fmt::format("no preset fits, and 'fast' holds {:.1f} Hz", 1e3 * 2 / 3 / last_ms)
+            : fmt::format("'{}' fits", best),
+        text));
+}
 
 void describe(ProbePart& part, const EglContext& context) {
     for (const EglAttempt& attempt : context.attempts()) {
@@ -56,19 +118,12 @@ void describe(ProbePart& part, const EglContext& context) {
         part.unfit.emplace_back(
             "the driver cannot import camera buffers (dma-buf): every picture is copied to the "
             "GPU");
-    if (const GpuFrameModel* model = GpuFrameModel::of(info.renderer)) {
-        constexpr double rate_hz = 30;
-        constexpr MatchedFrame frames[] = {{640, 400, 64, rate_hz},
-                                           {640, 480, 64, rate_hz, 960, 720},
-                                           {960, 720, 64, rate_hz},
-                                           {1280, 800, 128, rate_hz}};
-        for (const MatchedFrame& frame : frames) {
-            part.lines.push_back(model->fit_text(frame));
-            part.facts["fits"].push_back(nlohmann::json(model->fit_json(frame)));
-        }
-    }
     try {
         info.require_vantage_minimum();
+        if (const GpuFrameModel* model = GpuFrameModel::of(info.renderer))
+            add_modelled_fits(part, *model);
+        else
+            add_measured_fits(part);
     } catch (const Error& error) {
         part.unfit.emplace_back(error.what());
     }

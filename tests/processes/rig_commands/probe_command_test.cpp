@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +26,15 @@ TEST(ProbeCommand, GivesMachinesTheSame) {
     EXPECT_TRUE(json.at("gpio").is_array());
     EXPECT_TRUE(json.at("gpu").at("is_software").is_boolean());
     EXPECT_GE(json.at("gpu").at("limits").at("texture_side_px").get<int>(), 4096);
+    for (const auto& fit : json.at("gpu").at("fits")) {
+        const auto& times = fit.at(fit.contains("measured_ms") ? "measured_ms" : "lower_bounds_ms");
+        ASSERT_EQ(times.size(), 3U);
+        double least_ms = times.front();
+        for (const double ms : times) least_ms = std::min(least_ms, ms);
+        EXPECT_GT(least_ms, 0);
+        EXPECT_EQ(fit.at("preset").is_null(),
+                  least_ms > 1e3 / fit.at("rate_hz").get<double>() * 2 / 3);
+    }
     EXPECT_TRUE(json.at("clocks").at("tai_offset_s").is_number_integer());
     EXPECT_FALSE(json.at("known").at("kernel").get<std::string>().empty());
     for (const auto& sentence : json.at("unfit"))
