@@ -24,14 +24,11 @@ class CoarseMatcher : public EngineMatcher {
 
   private:
     /// Grey levels of the guide over which a sum falls to 1/e.
-    static constexpr double sigma = 8;
-    /// Largest step between neighbours that smoothing takes for one surface, in the grid's pixels
-    /// of 1/32.
-    static constexpr int most_step = disparity_steps_per_px * 3 / 4;
+    static constexpr double sigma = 7.5;
     /// Two paths along the rows. Two more along the columns take 3 ms of a Raspberry Pi 5 and
     /// change the errors by less than a twentieth.
     static SgmSettings path_settings(MatchPreset preset) {
-        return {.p1 = 6, .p2 = preset == MatchPreset::fast ? 18 : 16, .columns = false};
+        return {.p1 = 4, .p2 = preset == MatchPreset::fast ? 20 : 16, .columns = false};
     }
 
     /// `fast` compares one sample of each 2x2, the others two.
@@ -64,7 +61,7 @@ class CoarseMatcher : public EngineMatcher {
                 std::min(paths.most_cost(), max_perm_code)),
           paths_(library, coarse, coarse_disparities, paths, perm_.large_scratch(),
                  perm_.small_scratch()),
-          check_(library, coarse, fill_of(settings), Valley::flat, most_step),
+          check_(library, coarse, fill_of(settings), Valley::flat, disparity_steps_per_px / 2),
           upsample_(library, coarse, fine, result_form(settings)) {}
 
     const Buffer& search(PassProfiler& profiler, const LumaPass& luma) override {
