@@ -206,7 +206,8 @@ void demo(DemoOptions options) {
         return match_ms_of(tried, stage.folder() / "trial", ask);
     };
     DemoSize size;
-    if (ask("vantage-rig", {"probe", "--json"}).value("/gpu/is_software"_json_pointer, true)) {
+    if (ask("vantage-rig", {"probe", "--json", "--quick"})
+            .value("/gpu/is_software"_json_pointer, true)) {
         size = software_demo_size();
         if (options.films_the_stage() && !options.sweep)
             size.rate_hz = software_rate_hz(4, match_ms(size));

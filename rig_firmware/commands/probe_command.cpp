@@ -13,12 +13,12 @@ struct ProbeReport {
     ProbePart libcamera = probe_libcamera();
     ProbePart v4l2 = probe_v4l2();
     ProbePart gpio = probe_gpio();
-    ProbePart gpu = probe_gpu();
+    ProbePart gpu;
     ProbePart clocks = probe_clocks();
     ProbePart known = probe_known_faults();
     std::vector<std::string> unfit;
 
-    ProbeReport() {
+    explicit ProbeReport(bool is_quick) : gpu(probe_gpu(!is_quick)) {
         if (libcamera.facts.empty() && v4l2.facts.empty())
             unfit.emplace_back(
                 "there is no camera: neither libcamera nor V4L2 lists one that this user may open");
@@ -61,8 +61,12 @@ CommandEntry probe_command_entry() {
             "probe", "List this computer's cameras, GPIO, GPU and clocks, and name faults");
         auto as_json = std::make_shared<bool>(false);
         command->add_flag("--json", *as_json, "Print the result as JSON");
-        command->callback([as_json] {
-            const ProbeReport report;
+        auto is_quick = std::make_shared<bool>(false);
+        command->add_flag("--quick", *is_quick,
+                          "Leave out how long the presets take on a GPU that no model describes, "
+                          "which takes some seconds to measure");
+        command->callback([as_json, is_quick] {
+            const ProbeReport report(*is_quick);
             *as_json ? print_for_machines(report) : print_for_people(report);
         });
     }};

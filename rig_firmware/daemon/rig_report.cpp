@@ -47,7 +47,7 @@ class ScratchFile {
 nlohmann::json probe(const std::atomic<bool>& stopping) {
     const ScratchFile out;
     ChildProcess child({.program = program_folder() / "vantage-rig",
-                        .arguments = {"probe", "--json"},
+                        .arguments = {"probe", "--json", "--quick"},
                         .out = out.path(),
                         .niceness = 10});
     const MonotonicTime end = MonotonicClock::now() + probe_limit;

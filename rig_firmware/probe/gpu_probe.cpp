@@ -77,7 +77,7 @@ void add_measured_fits(ProbePart& part) {
         text));
 }
 
-void describe(ProbePart& part, const EglContext& context) {
+void describe(ProbePart& part, const EglContext& context, bool measures) {
     for (const EglAttempt& attempt : context.attempts()) {
         part.facts["attempts"].push_back(
             {{"platform", attempt.platform}, {"outcome", attempt.outcome}});
@@ -122,7 +122,7 @@ void describe(ProbePart& part, const EglContext& context) {
         info.require_vantage_minimum();
         if (const GpuFrameModel* model = GpuFrameModel::of(info.renderer))
             add_modelled_fits(part, *model);
-        else
+        else if (measures)
             add_measured_fits(part);
     } catch (const Error& error) {
         part.unfit.emplace_back(error.what());
@@ -131,12 +131,12 @@ void describe(ProbePart& part, const EglContext& context) {
 
 }  // namespace
 
-ProbePart probe_gpu() {
+ProbePart probe_gpu(bool measures) {
     ProbePart part{
         .title = "GPU", .facts = {{"attempts", nlohmann::json::array()}}, .lines = {}, .unfit = {}};
     try {
         const EglContext context;
-        describe(part, context);
+        describe(part, context, measures);
     } catch (const Error& error) {
         part.unfit.emplace_back(error.what());
     }
