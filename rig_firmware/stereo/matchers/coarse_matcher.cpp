@@ -28,7 +28,7 @@ class CoarseMatcher : public EngineMatcher {
     /// Two paths along the rows. Two more along the columns take 3 ms of a Raspberry Pi 5 and
     /// change the errors by less than a twentieth.
     static SgmSettings path_settings(MatchPreset preset) {
-        return {.p1 = 4, .p2 = preset == MatchPreset::fast ? 20 : 16, .columns = false};
+        return {.p1 = 6, .p2 = preset == MatchPreset::fast ? 20 : 16, .columns = false};
     }
 
     /// `fast` compares one sample of each 2x2, the others two.
