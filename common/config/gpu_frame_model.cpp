@@ -43,11 +43,10 @@ double GpuFrameModel::frame_ms(const Preset& preset, const MatchedFrame& frame) 
 }
 
 GpuFrameModel::Fit GpuFrameModel::fit(const MatchedFrame& frame) const {
-    const double limit_ms = 1e3 / frame.rate_hz * 2 / 3;
     Fit fit{};
     for (std::size_t i = 0; i < presets.size(); ++i) {
         fit.bounds_ms[i] = frame_ms(presets[i], frame);
-        if (!fit.best && fit.bounds_ms[i] <= limit_ms) fit.best = &presets[i];
+        if (!fit.best && fit.bounds_ms[i] <= limit_ms(frame.rate_hz)) fit.best = &presets[i];
     }
     return fit;
 }

@@ -30,10 +30,10 @@ struct GpuFrameModel {
     };
     static constexpr std::size_t preset_count = 3;
 
-    /// What the model says of one frame.
+    /// The lower bounds of a frame, and the preset that follows from them.
     struct Fit {
         std::array<double, preset_count> bounds_ms;  ///< of each preset
-        /// The best preset whose lower bound is within two thirds of a period; null: none.
+        /// The best preset whose lower bound is within limit_ms(); null: none.
         const Preset* best;
     };
 
@@ -42,6 +42,9 @@ struct GpuFrameModel {
     double ns_per_rectified_pixel;  ///< of both pictures
     double ns_per_reduced_pixel;    ///< the same for each pixel that is reduced or results from it
     std::array<Preset, preset_count> presets;  ///< the best one first
+
+    /// The time that a frame may take so that a rig holds its rate with a margin of a third, ms.
+    static constexpr double limit_ms(double rate_hz) { return 1e3 / rate_hz * 2 / 3; }
 
     static std::span<const GpuFrameModel> all();
     /// Null where no model is known for this GPU.

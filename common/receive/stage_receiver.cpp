@@ -149,7 +149,8 @@ struct StageReceiver::Impl {
         PercentileRecorder latency_ms, network_ms, decode_ms;
     };
 
-    /// What the thread that decodes a rig's frames alone uses.
+    /// Decodes a rig's frames, and remembers the newest right image. Used by the rig's decoding
+    /// thread only.
     struct Decoder {
         FrameDecoder frames;
         SharedBytes right_jpeg;     ///< the newest right image

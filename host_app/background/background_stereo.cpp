@@ -275,34 +275,43 @@ OtherView seen_from(const BackgroundView& view, const ColourImage& right) {
     return {other_from_pixel(camera, view).cast<float>(), finer(right), {}};
 }
 
+/// The other rigs that a rig is compared with, and the depths that are tried before planes are
+/// known.
+struct Search {
+    std::vector<std::size_t> others;
+    DepthLabels labels;  ///< no depths: there is nothing to match
+
+    Search(std::span<const BackgroundView> views, std::size_t which)
+        : others(others_of(views, which)),
+          labels(others.empty() ? DepthLabels{} : labels_of(views[which], views[others.front()])) {}
+};
+
 /// The planes that the matched depths of all rigs show.
 std::vector<ScenePlane> planes_in(std::span<const BackgroundView> views,
+                                  std::span<const Search> searches,
                                   std::span<const DepthImage> depths_m) {
     std::vector<DepthMapView> maps;
-    for (std::size_t i = 0; i < depths_m.size(); ++i) {
-        const std::vector<std::size_t> others = others_of(views, i);
-        if (others.empty()) continue;
-        maps.push_back({views[i].K, views[i].world_from_camera, &depths_m[i],
-                        plane_tolerance * labels_of(views[i], views[others.front()]).step});
-    }
+    for (std::size_t i = 0; i < depths_m.size(); ++i)
+        if (searches[i].labels.depths > 0)
+            maps.push_back({views[i].K, views[i].world_from_camera, &depths_m[i],
+                            plane_tolerance * searches[i].labels.step});
     if (maps.empty()) return {};
     return planes_of(maps, max_planes, {&floor_plane, 1});
 }
 
 std::optional<DepthImage> matched(std::span<const BackgroundView> views, std::size_t which,
-                                  std::span<const cv::Mat4b> fine, const ColourImage& right_picture,
+                                  const Search& search, std::span<const cv::Mat4b> fine,
+                                  const ColourImage& right_picture,
                                   std::span<const cv::Mat2f> inverse_depths,
                                   std::span<const ScenePlane> planes, const std::stop_token& stop) {
     const BackgroundView& view = views[which];
+    DepthLabels labels = search.labels;
+    if (labels.depths == 0) return DepthImage(view.colour.size(), 0.0f);
     std::vector<OtherView> others;
-    const std::vector<std::size_t> nearest_others = others_of(views, which);
-    others.reserve(nearest_others.size());
-    for (const std::size_t i : nearest_others)
+    others.reserve(search.others.size());
+    for (const std::size_t i : search.others)
         others.push_back({other_from_pixel(views[i], view).cast<float>(), fine[i],
                           inverse_depths.empty() ? cv::Mat2f() : inverse_depths[i]});
-    if (others.empty()) return DepthImage(view.colour.size(), 0.0f);
-    DepthLabels labels = labels_of(view, views[nearest_others.front()]);
-    if (labels.depths == 0) return DepthImage(view.colour.size(), 0.0f);
     for (const ScenePlane& plane : planes)
         labels.planes.push_back(
             inverse_depth_of(plane, view.K, view.world_from_camera).transpose().cast<float>());
@@ -325,9 +334,11 @@ std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const Backgro
                                                          const std::stop_token& stop) {
     std::vector<cv::Mat4b> fine;
     std::vector<ColourImage> rights;
-    for (const BackgroundView& view : views) {
-        fine.push_back(finer(view.colour));
-        rights.push_back(right_of(view));
+    std::vector<Search> searches;
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        fine.push_back(finer(views[i].colour));
+        rights.push_back(right_of(views[i]));
+        searches.emplace_back(views, i);
     }
     std::vector<DepthImage> depths_m;
     for (int pass = 0; pass < 2; ++pass) {
@@ -335,11 +346,11 @@ std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const Backgro
         inverse_depths.reserve(depths_m.size());
         for (const DepthImage& depth_m : depths_m)
             inverse_depths.push_back(inverse_depths_of(depth_m));
-        const std::vector<ScenePlane> planes = planes_in(views, depths_m);
+        const std::vector<ScenePlane> planes = planes_in(views, searches, depths_m);
         depths_m.clear();
         for (std::size_t i = 0; i < views.size(); ++i) {
             std::optional<DepthImage> depth_m =
-                matched(views, i, fine, rights[i], inverse_depths, planes, stop);
+                matched(views, i, searches[i], fine, rights[i], inverse_depths, planes, stop);
             if (!depth_m) return std::nullopt;
             depths_m.push_back(std::move(*depth_m));
         }

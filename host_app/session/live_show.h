@@ -81,7 +81,7 @@ class LiveShow {
     LiveReport report() const;
 
     const LiveSettings& settings() const { return settings_; }
-    /// What became of the reloads of the stage file. Used on the session's thread.
+    /// The reloads of the stage file so far. Used on the session's thread.
     void note_reload(const StageReloads& reloads) { reloads_ = reloads; }
     const StageReloads& reloads() const { return reloads_; }
     OutputSupervisor& outputs() { return outputs_; }

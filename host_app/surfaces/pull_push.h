@@ -15,9 +15,9 @@ namespace vantage {
 /// averaged. Belongs to one context.
 class PullPush {
   public:
-    /// What is filled. Colour (rgba8, alpha 0 in holes) comes with its depth. Depth (r32f, metres,
-    /// 0 in holes) is averaged as inverse depth over a wider neighbourhood, and filled with a
-    /// negative sign.
+    /// The kind of image that is filled. Colour (rgba8, alpha 0 in holes) comes with its depth.
+    /// Depth (r32f, metres, 0 in holes) is averaged as inverse depth over a wider neighbourhood,
+    /// and filled with a negative sign.
     enum class Kind { colour, depth };
 
     /// The halved images of one size, the largest first.

@@ -54,7 +54,7 @@ class BoardWatch {
     std::thread thread_;
 };
 
-/// What a picture shows of the boards, as BoardWatch::ask() has it.
+/// The boards that a picture shows, as the JSON of BoardWatch::ask().
 std::string board_sighting_json(const GreyImage& picture, const CalibrationBoards& boards);
 
 /// The boards of the option board=: "9x6" for the inner corners of a chessboard, or the file that

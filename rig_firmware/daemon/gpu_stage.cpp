@@ -5,6 +5,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/config/gpu_frame_model.h"
 #include "common/gl/context/driver_lock.h"
 
 namespace vantage {
@@ -29,7 +30,7 @@ RigConfig with_preset(RigConfig config, const std::string& preset) {
 /// Presets that a configuration allows, best first.
 std::vector<std::string> allowed_presets(const RigConfig& config) {
     if (config.match.preset != "auto") return {config.match.preset};
-    return {"quality", "balanced", "fast"};
+    return {preset_names.begin(), preset_names.end()};
 }
 
 /// Returns the size of the pictures that are matched. Throws Error if they would be larger than the
@@ -126,7 +127,7 @@ GpuStage::GpuStage(const RigConfig& config, const StereoCalibration& calibration
 }
 
 void GpuStage::choose_matcher(const RigConfig& config) {
-    const double period_ms = 1e3 / config.source.rate_hz, limit_ms = period_ms * 2 / 3;
+    const double limit_ms = GpuFrameModel::limit_ms(config.source.rate_hz);
     for (const std::string& preset : allowed_presets(config)) {
         const RigConfig candidate = with_preset(config, preset);
         matcher_name_ = chosen_matcher(candidate);

@@ -23,7 +23,7 @@ constexpr std::array<const char*, 2> import_by_gl = {"GL_OES_EGL_image",
 /// The rate at which the presets are judged.
 constexpr double rate_hz = 30;
 
-/// What the presets take by the model of this GPU.
+/// Adds the times of the presets by the model of this GPU.
 void add_modelled_fits(ProbePart& part, const GpuFrameModel& model) {
     constexpr MatchedFrame frames[] = {{640, 400, 64, rate_hz},
                                        {640, 480, 64, rate_hz, 960, 720},
@@ -35,19 +35,17 @@ void add_modelled_fits(ProbePart& part, const GpuFrameModel& model) {
     }
 }
 
-/// What the presets take on a GPU without a model: each matches a dark pair a few times. Compiling
-/// their shaders takes some seconds the first time.
+/// Adds the times of the presets on a GPU without a model: each matches a dark pair a few times.
+/// Compiling their shaders takes some seconds the first time.
 void add_measured_fits(ProbePart& part) {
     constexpr int width_px = 640, height_px = 400, disparities = 64, repeats = 3;
-    constexpr std::array presets = {"quality", "balanced", "fast"};
-    constexpr double limit_ms = 1e3 / rate_hz * 2 / 3;
     const ShaderLibrary shaders;
     Texture dark(TextureFormat::rgba8, width_px, height_px);
     dark.upload(ColourImage(height_px, width_px, cv::Vec4b(0, 0, 0, 255)));
     nlohmann::json times;
     std::string text, best;
     double last_ms = 0;
-    for (const char* name : presets) {
+    for (const char* name : preset_names) {
         const MatchSettings settings{.width_px = width_px,
                                      .height_px = height_px,
                                      .disparities = disparities,
@@ -58,7 +56,7 @@ void add_measured_fits(ProbePart& part) {
         last_ms = median_gpu_ms(repeats, [&] { matcher->match(dark, dark); });
         times[name] = last_ms;
         text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", name, last_ms);
-        if (best.empty() && last_ms <= limit_ms) best = name;
+        if (best.empty() && last_ms <= GpuFrameModel::limit_ms(rate_hz)) best = name;
     }
     part.facts["fits"].push_back(
         {{"width_px", width_px},

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <string>
@@ -12,6 +13,8 @@
 namespace vantage {
 
 enum class MatchPreset { fast, balanced, quality };
+/// Their names in rig.toml, the best one first.
+inline constexpr std::array preset_names = {"quality", "balanced", "fast"};
 
 /// What a matcher is built for.
 struct MatchSettings {

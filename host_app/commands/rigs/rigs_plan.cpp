@@ -217,9 +217,9 @@ void print_gpu_fits(const std::vector<MatchedFrame>& frames) {
             std::cout << model.fit_text(frame) << "\n";
 }
 
-/// What the rigs' GPUs take, beside what a preset may take that is to hold the rate.
+/// Prints the time that each rig's GPU takes for a frame, and the limit that holds the rate.
 void print_gpu_times(const StageConfig& stage, const std::vector<GpuTimes>& times, double rate_hz) {
-    const double limit_ms = 1e3 / rate_hz * 2 / 3;
+    const double limit_ms = GpuFrameModel::limit_ms(rate_hz);
     for (std::size_t i = 0; i < times.size(); ++i)
         if (const auto ms = times[i].mean_ms())
             std::cout << fmt::format(

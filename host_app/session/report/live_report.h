@@ -37,7 +37,7 @@ struct RigAccount {
     std::optional<RigBackgroundState> background = {};  ///< nothing: no background is learnt
 };
 
-/// What became of the requests to reload the stage file.
+/// The reloads of the stage file that were done and refused, and the sentence of the last one.
 struct StageReloads {
     std::uint64_t done = 0, refused = 0;
     std::string sentence;  ///< of the last one; empty: none was requested

@@ -1,4 +1,4 @@
-// What a show does beside a rig that attacks it.
+// A show stays whole beside a rig that attacks it.
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +16,7 @@
 #include "tests/support/data_folder.h"
 #include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
+#include "tests/support/tiny_rig.h"
 
 namespace vantage {
 namespace {
@@ -44,15 +45,8 @@ class HostileShow : public testing::Test {
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
 
     std::unique_ptr<ChildProgram> start_rig(const std::string& name, int azimuth_deg, int port) {
-        std::ofstream(file(name + ".toml"))
-            << "version = 1\nname = \"" << name
-            << "\"\n[source]\nrate_hz = 5\nwidth_px = 96\nheight_px = 72\n[virtual_rig]\n"
-            << "azimuth_deg = " << azimuth_deg
-            << "\n[match]\nmatcher = \"exact\"\ndisparities = 32\n[stream]\nbind = \""
-            << endpoint(port) << "\"\n";
-        return std::make_unique<ChildProgram>(
-            VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", file(name + ".toml")},
-            folder_.path());
+        return start_tiny_rig(VANTAGE_RIG_PROGRAM, folder_.path(), name, azimuth_deg,
+                              endpoint(port));
     }
     static std::string endpoint(int port) { return fmt::format("tcp://127.0.0.1:{}", port); }
     static std::string entry(const std::string& name, const std::string& endpoint,

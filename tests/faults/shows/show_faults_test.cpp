@@ -224,15 +224,10 @@ TEST_F(ShowFaults, AStepOfARigsClockThatNothingElseShowsIsNamed) {
     start_host({"--seconds", "600"});
     wait_for(*host_, " frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
-    const auto named_ms = [&](const std::string& words) {
-        wait_for(*host_, words);
-        const std::string log = host_->err();
-        return std::atof(log.c_str() + log.find(words) + words.size());
-    };
     far_->send_signal(SIGUSR1);
-    EXPECT_NEAR(named_ms("rig far: its clock was set once, last by "), 50, 10);
+    EXPECT_NEAR(named_by_host("rig far: its clock was set once, last by "), 50, 10);
     far_->send_signal(SIGUSR2);
-    EXPECT_NEAR(named_ms("rig far: its clock was set 2 times, last by "), -50, 10);
+    EXPECT_NEAR(named_by_host("rig far: its clock was set 2 times, last by "), -50, 10);
     host_->send_signal(SIGINT);
     const ProgramResult result = host_->wait();
     const nlohmann::json summary = nlohmann::json::parse(result.out);
@@ -248,26 +243,16 @@ TEST_F(ShowFaults, AStepOfTheHostsClockIsNamedAndCostsNeitherTicksNorFrames) {
     wait_for(*host_, " frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     const int ahead = SIGUSR1, back = SIGUSR2;
-    const auto named_ms = [&](const std::string& words) {
-        wait_for(*host_, words);
-        const std::string log = host_->err();
-        return std::atof(log.c_str() + log.find(words) + words.size());
-    };
     EXPECT_EQ(sets_until_far_is_back([&] { host_->send_signal(ahead); }), 0) << host_->err();
-    EXPECT_NEAR(named_ms("the clock of this computer was set by +"), 60'000, 10'000);
+    EXPECT_NEAR(named_by_host("the clock of this computer was set by +"), 60'000, 10'000);
     EXPECT_EQ(sets_until_far_is_back([&] { host_->send_signal(back); }), 0) << host_->err();
-    EXPECT_NEAR(named_ms("the clock of this computer was set by -"), 60'000, 10'000);
+    EXPECT_NEAR(named_by_host("the clock of this computer was set by -"), 60'000, 10'000);
     host_->send_signal(SIGINT);
     const ProgramResult result = host_->wait();
     EXPECT_EQ(result.status, 130) << result.err;
     const nlohmann::json summary = nlohmann::json::parse(result.out);
     expect_ticks_held(summary);
-    for (const nlohmann::json& rig : summary["rigs"]) {
-        EXPECT_EQ(rig["outages"]["count"], 0);
-        EXPECT_EQ(rig["host"]["out_of_step"], 0);
-        EXPECT_EQ(rig["link"]["lost"], 0);
-        expect_balanced(rig);
-    }
+    expect_no_frame_lost(summary);
     for (const nlohmann::json& rig : summary["take"]["rigs"]) {
         EXPECT_EQ(rig["refused"], 0) << "the take goes on";
         EXPECT_GT(rig["frames"], 20);

@@ -181,6 +181,21 @@ void TwoRigShow::expect_ticks_held(const nlohmann::json& summary) {
         << summary["tick_late_ms"];
 }
 
+double TwoRigShow::named_by_host(const std::string& words) const {
+    wait_for(*host_, words);
+    const std::string log = host_->err();
+    return std::atof(log.c_str() + log.find(words) + words.size());
+}
+
+void TwoRigShow::expect_no_frame_lost(const nlohmann::json& summary) {
+    for (const nlohmann::json& rig : summary["rigs"]) {
+        EXPECT_EQ(rig["outages"]["count"], 0);
+        EXPECT_EQ(rig["host"]["out_of_step"], 0);
+        EXPECT_EQ(rig["link"]["lost"], 0);
+        expect_balanced(rig);
+    }
+}
+
 void TwoRigShow::expect_balanced(const nlohmann::json& rig) {
     const auto count = [&](const char* place, const char* what) {
         return rig[place][what].get<std::int64_t>();

@@ -47,6 +47,8 @@ class TwoRigShow : public testing::Test {
     std::size_t count_of(const std::string& words) const;
     std::size_t progress() const { return count_of(" frames, "); }
     void wait_for_progress();
+    /// The number that follows these words in the host's log, once they are there.
+    double named_by_host(const std::string& words) const;
     /// Sets that lacked the far rig after its trouble's end, before it was in every one again.
     /// Counted by the rig beside, so that a slow computer has as much time as it takes to film
     /// them.
@@ -58,6 +60,8 @@ class TwoRigShow : public testing::Test {
     /// Who waited for a rig, a network or a person would miss ten a second.
     static void expect_ticks_held(const nlohmann::json& summary);
     static void expect_balanced(const nlohmann::json& rig);
+    /// No rig was out of step or interrupted, and the network lost no frame.
+    static void expect_no_frame_lost(const nlohmann::json& summary);
     /// Ends a rig, which has counted every frame that it filmed.
     static void expect_unharmed(ChildProgram& rig);
 

@@ -13,6 +13,7 @@
 #include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 #include "tests/support/http_answer.h"
+#include "tests/support/tiny_rig.h"
 
 namespace vantage {
 namespace {
@@ -23,15 +24,8 @@ class Reload : public testing::Test {
     static std::string endpoint(int port) { return fmt::format("tcp://127.0.0.1:{}", port); }
 
     std::unique_ptr<ChildProgram> start_rig(const std::string& name, int azimuth_deg, int port) {
-        std::ofstream(file(name + ".toml"))
-            << "version = 1\nname = \"" << name
-            << "\"\n[source]\nrate_hz = 5\nwidth_px = 96\nheight_px = 72\n[virtual_rig]\n"
-            << "azimuth_deg = " << azimuth_deg
-            << "\n[match]\nmatcher = \"exact\"\ndisparities = 32\n[stream]\nbind = \""
-            << endpoint(port) << "\"\n";
-        return std::make_unique<ChildProgram>(
-            VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", file(name + ".toml")},
-            folder_.path());
+        return start_tiny_rig(VANTAGE_RIG_PROGRAM, folder_.path(), name, azimuth_deg,
+                              endpoint(port));
     }
 
     struct Entry {
