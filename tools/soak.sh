@@ -4,7 +4,8 @@
 #   tools/soak.sh [SECONDS, default 300] [SEED] [DOCUMENT]
 # With a SEED something befalls the stage every ten seconds, drawn at random from it: a rig hangs (SIGSTOP), a rig is killed
 # and started anew, the GPU is reset, strangers send garbage, strangers connect and say nothing, a rig's clock is set by 50 ms
-# and back, a take begins whose disk is soon full, the host hangs for a second. Then a Vantage is needed that was built with
+# and back, a take begins whose disk is soon full, the host hangs for a second, a rig is taken out of the stage file and put
+# back, a rig with a valid key attacks, the host's clock is set by 50 ms and back. Then a Vantage is needed that was built with
 # its tests, and oscsend. A DOCUMENT's table is written anew.
 # Prints the account of every rig, and closes with a line `N passed, N failed`.
 set -euo pipefail
@@ -18,11 +19,11 @@ out=$PWD/out/soak
 rm -rf "$out"
 mkdir -p "$out"
 
-rigs= host=
+rigs= host= hostile=
 declare -A begun=()  # rigs that were started anew
 rig_process() { echo "${begun[$1]:-$(pgrep -P "$rigs" -f "/$1\.toml")}"; }
 end_all() {
-  for process in $host ${begun[*]} $rigs; do kill -CONT "$process" 2>/dev/null && kill "$process" || true; done
+  for process in $hostile $host ${begun[*]} $rigs; do kill -CONT "$process" 2>/dev/null && kill "$process" || true; done
   rm -rf "${libraries-}"
   wait
 }
@@ -30,9 +31,10 @@ trap end_all EXIT
 trap 'exit 130' INT TERM
 
 reset=$PWD/build/release/lib/vantage_gpu_reset.so clock=$PWD/build/release/lib/vantage_clock_set.so
+attacker=$PWD/build/release/bin/hostile_rig
 osc=49120 take_kib=70000
 if [ -n "$seed" ]; then
-  for file in "$reset" "$clock"; do
+  for file in "$reset" "$clock" "$attacker"; do
     [ -e "$file" ] || { echo "soak.sh: $file is missing; ./test builds it" >&2; exit 2; }
   done
   command -v oscsend >/dev/null || { echo "soak.sh: oscsend is missing (sudo apt install liblo-tools)" >&2; exit 2; }
@@ -43,10 +45,12 @@ if [ -n "$seed" ]; then
   export CLOCK_SET_MS=50
 fi
 LD_PRELOAD=${seed:+$libraries/clock.so} start_rigs "$out" "$out"
+stage=$out/demo/stage.toml
+cp "$stage" "$out/whole.toml"
 (
   # A file that may not grow fails a take as a full disk does.
   [ -z "$seed" ] || { trap '' XFSZ; ulimit -f $take_kib; }
-  LD_PRELOAD=${seed:+$libraries/reset.so} exec build/release/bin/vantage live --stage "$out/demo/stage.toml" --headless --no-jog \
+  CLOCK_SET_BY_RTMIN=1 LD_PRELOAD=${seed:+"$libraries/reset.so $libraries/clock.so"} exec build/release/bin/vantage live --stage "$stage" --headless --no-jog \
     --past-mb 64 --rate 15 --seconds "$seconds" --path hw_config/moves/demo.toml --takes "$out" --control "osc://127.0.0.1:$osc" \
     --json >"$out/soak.json" 2>"$out/live.log"
 ) &
@@ -55,12 +59,18 @@ until grep -qs ' frames, ' "$out/live.log"; do sleep 0.2; kill -0 $host; done
 started=$(date +%s)
 
 declare -A times=()
+# Gives the running show this stage file.
+follow() { # file
+  cp "$1" "$stage.new"
+  mv "$stage.new" "$stage"
+  oscsend 127.0.0.1 $osc /vantage/reload_stage
+}
 port_of() { sed -n 's/^bind = "tcp:\/\/.*:\([0-9]*\)"$/\1/p' "$out/demo/$1.toml"; }
 # Nobody waits for what goes on beside, nor remembers it: once, when numbers of processes had begun to come again, this shell
 # hung in its own wait. Whether it took a process for one that it remembered was not found out.
 befall() {
-  local what=$((RANDOM % 8)) rig=rig$((1 + RANDOM % 4)) length=$((1 + RANDOM % 5)) names
-  names=(hangs killed resets garbage silence clocks takes "host hangs")
+  local what=$((RANDOM % 11)) rig=rig$((1 + RANDOM % 4)) length=$((1 + RANDOM % 5)) names
+  names=(hangs killed resets garbage silence clocks takes "host hangs" reloads attacks "host clock")
   times[${names[what]}]=$((${times[${names[what]}]:-0} + 1))
   echo "$(($(date +%s) - started)) s: ${names[what]} $rig, $length s" >>"$out/faults.log"
   case $what in
@@ -76,6 +86,15 @@ befall() {
     5) kill -USR1 "$(rig_process "$rig")"; sleep $length; kill -USR2 "$(rig_process "$rig")" ;;
     6) rm -f "$out"/*.mkv; oscsend 127.0.0.1 $osc /vantage/take ;;
     7) kill -STOP $host; sleep 1; kill -CONT $host ;;
+    8) awk -v rig="$rig" '/^\[/ { if (!gone) printf "%s", entry; entry = ""; gone = 0 } { entry = entry $0 "\n" }
+        $0 ~ "name = ." rig ".$" { gone = 1 } END { if (!gone) printf "%s", entry }' "$out/whole.toml" >"$out/part.toml"
+      follow "$out/part.toml"; sleep $length; follow "$out/whole.toml" ;;
+    9) "$attacker" "$(sed -n 's/^rate_hz = //p' "$stage")" "$seed" >"$out/hostile.toml" & hostile=$!
+      until grep -q public_key "$out/hostile.toml"; do sleep 0.1; done
+      cat "$out/whole.toml" "$out/hostile.toml" >"$out/part.toml"
+      follow "$out/part.toml"; sleep $length; follow "$out/whole.toml"
+      kill $hostile; hostile= ;;
+    10) kill -s RTMIN+1 $host; sleep $length; kill -s RTMIN+2 $host ;;
   esac
 }
 
@@ -100,13 +119,15 @@ host=
 # A rig that was started anew on the way still fills its pools.
 awk -v third=$((seconds / 3)) 'NR == FNR { if ($1 < third) begun[$3] = 1; next } $3 in begun' "$out/samples" "$out/samples" \
   >"$out/settled"
+# A hostile rig's own counts are invented.
+jq 'del(.rigs[] | select(.name == "hostile"))' "$out/soak.json" >"$out/account.json"
 passed=0 failed=0
-for result in "$(tools/check_memory.sh "$out/settled" "$seconds" || true)" "$(tools/check_account.sh "$out/soak.json" || true)"; do
+for result in "$(tools/check_memory.sh "$out/settled" "$seconds" || true)" "$(tools/check_account.sh "$out/account.json" || true)"; do
   sed '$d' <<<"$result"
   read -r p _ f _ <<<"$(tail -n 1 <<<"$result")"
   passed=$((passed + p)) failed=$((failed + f))
 done
-figure() { jq -r "$1" "$out/soak.json"; }
+figure() { jq -r "$1" "$out/account.json"; }
 # Ticks go by while the host hangs for a second, and no other.
 hung=${times["host hangs"]:-0}
 if [ "$(figure .missed_ticks)" -le $((17 * hung + 2)) ]; then

@@ -61,11 +61,10 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
     rig.heard = arrival;
     rig.session = frame->session;
     const StageStep::Result step = step_.hear(rig_number, index, new_session, arrival);
-    if (step.began_anew) {
-        if (!open_.empty()) close_through(open_.rbegin()->first, arrival);
-        last_closed_.reset();
-        closed_deadlines_.clear();
-    }
+    if (!first_heard_) first_heard_ = arrival;
+    is_gathered_ = is_gathered_ || step_.due(index, arrival);
+    if (step.began_anew || is_order_of_one_ahead(arrival)) begin_anew(arrival);
+    extend_deadlines(arrival);
     if (step.verdict == StageStep::Verdict::out_of_step) return FrameFate::out_of_step;
     if (last_closed_ && index <= *last_closed_) {
         const auto closed = closed_deadlines_.find(index);
@@ -79,15 +78,43 @@ FrameFate FrameSetAssembler::add(std::size_t rig_number, std::shared_ptr<const R
     OpenFrameSet& set = place->second;
     if (opened) {
         set.frames.resize(rigs_.size());
-        // A rig that runs ahead must not use up the other rigs' time.
-        const std::chrono::nanoseconds ahead = step_.ahead_of_most(rig_number, arrival);
-        set.deadline = arrival + options_.latency_budget +
-                       (ahead > options_.period ? ahead : std::chrono::nanoseconds(0));
+        set.opened = arrival;
+        set.deadline = arrival + options_.latency_budget;
+        extend_deadlines(arrival);
     }
     if (set.frames[rig_number]) return FrameFate::duplicate;
     set.frames[rig_number] = std::move(frame);
     if (open_.size() > max_open_frame_sets) close_through(open_.begin()->first, arrival);
     return FrameFate::in_frame_set;
+}
+
+bool FrameSetAssembler::is_order_of_one_ahead(MonotonicTime now) const {
+    if (!last_closed_ || !is_order_of_one_) return false;
+    const auto due = step_.due(*last_closed_, now);
+    return due && *due > now + options_.latency_budget;
+}
+
+void FrameSetAssembler::extend_deadlines(MonotonicTime now) {
+    // A rig that runs ahead must not use up the other rigs' time.
+    for (auto& [index, set] : open_)
+        if (const auto due = step_.due(index, now); due && *due > set.opened + options_.period)
+            set.deadline = std::max(set.deadline, *due + options_.latency_budget);
+}
+
+void FrameSetAssembler::begin_anew(MonotonicTime now) {
+    if (!open_.empty()) close_through(open_.rbegin()->first, now);
+    last_closed_.reset();
+    closed_deadlines_.clear();
+    is_order_of_one_ = true;
+}
+
+std::optional<MonotonicTime> FrameSetAssembler::end_of_gathering() const {
+    constexpr std::size_t fewest = 3;
+    if (is_gathered_ || order_.size() < fewest || !first_heard_) return std::nullopt;
+    const bool any_coming = std::any_of(order_.begin(), order_.end(), [&](std::size_t rig) {
+        return rigs_[rig].connected && rigs_[rig].is_coming && !rigs_[rig].newest;
+    });
+    return any_coming ? std::optional(*first_heard_ + longest_gathering) : std::nullopt;
 }
 
 void FrameSetAssembler::set_connected(std::size_t rig, bool connected) {
@@ -104,6 +131,7 @@ void FrameSetAssembler::set_at_stage_rate(std::size_t rig, bool is_at_it) {
 
 std::vector<FrameSet> FrameSetAssembler::take_closed(MonotonicTime now) {
     std::optional<std::uint64_t> through;
+    if (const auto end = end_of_gathering(); end && now < *end) return std::exchange(closed_, {});
     for (const auto& [index, set] : open_)
         if (set.deadline <= now || everyone_accounted_for(index, set, now)) through = index;
     if (through) close_through(*through, now);
@@ -114,6 +142,7 @@ std::optional<MonotonicTime> FrameSetAssembler::next_deadline() const {
     std::optional<MonotonicTime> next;
     for (const auto& [index, set] : open_)
         next = next ? std::min(*next, set.deadline) : set.deadline;
+    if (const auto end = end_of_gathering(); next && end) next = std::max(*next, *end);
     return next;
 }
 
@@ -176,6 +205,7 @@ void FrameSetAssembler::close_through(std::uint64_t index, MonotonicTime now) {
         closed_deadlines_[set.trigger_index] = node.mapped().deadline;
         if (closed_deadlines_.size() > max_open_frame_sets)
             closed_deadlines_.erase(closed_deadlines_.begin());
+        is_order_of_one_ = is_order_of_one_ && set.present() == 1;
         closed_.push_back(std::move(set));
     }
 }

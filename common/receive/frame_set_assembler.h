@@ -32,6 +32,11 @@ enum class FrameFate {
 /// clock are. If that first frame is more than a period ahead of most rigs' (of three or more), the
 /// budget counts from when theirs are due. Frame sets close in the order of their pulses.
 ///
+/// A single rig does not set the order for a stage of three or more: at the start no frame set
+/// closes while other rigs are about to send their first frames, for a limited time. If a single
+/// rig has closed frame sets that most rigs reach only after the latency budget, the order begins
+/// anew.
+///
 /// A rig is active if it is connected, is asked for the pulse, was not silent for longer than the
 /// latency budget plus two of its periods, and does not lag. A silent rig is active again with its
 /// next frame. A rig lags if all of its recent frames came after the budget, until one is in time.
@@ -49,6 +54,9 @@ class FrameSetAssembler {
 
     /// Open frame sets at a time; a further one closes the oldest.
     static constexpr std::size_t max_open_frame_sets = 32;
+    /// The longest wait for the first frames of other rigs after the stage's first frame, as long
+    /// as a stage waits for its rigs before the first pulse (TakeStarter::longest_wait).
+    static constexpr std::chrono::seconds longest_gathering{15};
 
     FrameSetAssembler(std::vector<std::string> rigs, const Options& options);
 
@@ -66,6 +74,8 @@ class FrameSetAssembler {
 
     /// Sets whether the rig is connected; initially not.
     void set_connected(std::size_t rig, bool connected);
+    /// Sets whether the rig is about to send its first frames; initially not.
+    void set_coming(std::size_t rig, bool is_coming) { rigs_[rig].is_coming = is_coming; }
     /// Sets which pulses the rig is asked for: multiples of `rate_divisor`; 0: none. Initially all.
     void set_asked(std::size_t rig, std::uint32_t rate_divisor);
     /// Sets whether the rig's trigger rate equals the stage's, as far as known; initially true.
@@ -89,11 +99,13 @@ class FrameSetAssembler {
   private:
     struct OpenFrameSet {
         std::vector<std::shared_ptr<const RigFrame>> frames;
+        MonotonicTime opened{};
         MonotonicTime deadline{};
     };
     struct Rig {
         std::string name;
         bool connected = false;
+        bool is_coming = false;
         std::uint32_t rate_divisor = 1;  ///< 0: asked for no frames
         std::optional<std::uint64_t> session;
         std::optional<std::uint64_t> newest;  ///< trigger index of the newest frame
@@ -103,6 +115,13 @@ class FrameSetAssembler {
     };
 
     bool asked_for(std::size_t rig, std::uint64_t index) const;
+    /// Until when frame sets stay open for the first frames of other rigs; empty: not at all.
+    std::optional<MonotonicTime> end_of_gathering() const;
+    /// Whether a single rig has closed frame sets that are far ahead of most rigs.
+    bool is_order_of_one_ahead(MonotonicTime now) const;
+    void begin_anew(MonotonicTime now);
+    /// Gives open frame sets the time that most rigs need.
+    void extend_deadlines(MonotonicTime now);
     bool in_play(std::size_t rig, std::uint64_t index, MonotonicTime now) const;
     bool everyone_accounted_for(std::uint64_t index, const OpenFrameSet& set,
                                 MonotonicTime now) const;
@@ -115,6 +134,10 @@ class FrameSetAssembler {
     StageStep step_;
     std::map<std::uint64_t, OpenFrameSet> open_;
     std::optional<std::uint64_t> last_closed_;
+    /// Whether no frame set of two or more rigs has closed since the order began.
+    bool is_order_of_one_ = true;
+    std::optional<MonotonicTime> first_heard_;
+    bool is_gathered_ = false;
     std::map<std::uint64_t, MonotonicTime> closed_deadlines_;  ///< of recently closed frame sets
     std::vector<FrameSet> closed_;
 };

@@ -143,6 +143,7 @@ struct StageReceiver::Impl {
         std::uint64_t undecodable_frames = 0;
         RigLink::Request request;
         std::shared_ptr<const std::string> report;
+        std::optional<MonotonicTime> ready_since;
         OutageCounter outages;
         LogLimiter complaints{complaint_period};
         StateLines state_lines;
@@ -356,6 +357,7 @@ struct StageReceiver::Impl {
             if (rig.link) show(rig, rig.link->view(now), now);
             // Frames that arrived before the rig disconnected still join their frame sets.
             assembler.set_connected(i, rig.status.connected || rig.unhandled > 0);
+            assembler.set_coming(i, is_coming(rig, now));
             assembler.set_at_stage_rate(i, rate_warning(rig.status).empty());
             assembler.set_asked(i,
                                 rig.link && rig.request.streaming ? rig.request.rate_divisor : 0);
@@ -363,6 +365,19 @@ struct StageReceiver::Impl {
         }
         collect_closed(now);
         start_take(now);
+    }
+
+    /// Whether the rig is about to send its first frames: it starts, or became ready a short time
+    /// ago. Precondition: mutex is held.
+    static bool is_coming(Rig& rig, MonotonicTime now) {
+        const RigStatus& status = rig.status;
+        if (!status.connected || !status.sync.ready)
+            rig.ready_since.reset();
+        else if (!rig.ready_since)
+            rig.ready_since = now;
+        return status.connected && rig.request.streaming &&
+               (!status.health.starting.empty() ||
+                (rig.ready_since && now - *rig.ready_since < TakeStarter::ready_patience));
     }
 
     /// Names a step of this computer's clock. Frame sets do not depend on that clock.

@@ -39,16 +39,22 @@ bool StageStep::active(std::size_t rig, MonotonicTime now) const {
     return rigs_[rig].heard && now - *rigs_[rig].heard <= options_.silence_limit;
 }
 
-std::chrono::nanoseconds StageStep::ahead_of_most(std::size_t rig, MonotonicTime now) const {
+std::optional<MonotonicTime> StageStep::due(std::uint64_t trigger_index, MonotonicTime now) const {
     constexpr std::size_t fewest = 3;
+    bool any_at_rate = false;
+    for (std::size_t i = 0; i < rigs_.size(); ++i)
+        any_at_rate = any_at_rate || (active(i, now) && rigs_[i].at_stage_rate);
     std::vector<double> leads_ns;
     for (std::size_t i = 0; i < rigs_.size(); ++i)
-        if (active(i, now)) leads_ns.push_back(rigs_[i].lead_ns);
-    if (leads_ns.size() < fewest) return std::chrono::nanoseconds(0);
+        if (active(i, now) && (rigs_[i].at_stage_rate || !any_at_rate))
+            leads_ns.push_back(rigs_[i].lead_ns);
+    if (leads_ns.size() < fewest) return std::nullopt;
     const auto middle = leads_ns.begin() + static_cast<std::ptrdiff_t>((leads_ns.size() - 1) / 2);
     std::nth_element(leads_ns.begin(), middle, leads_ns.end(), std::greater<>());
-    return std::chrono::nanoseconds(
-        static_cast<std::int64_t>(std::max(0.0, rigs_[rig].lead_ns - *middle)));
+    // Leaves room to add a latency budget.
+    constexpr double latest_ns = 9e18;
+    const double due_ns = static_cast<double>(trigger_index) * as_ns(options_.period) - *middle;
+    return monotonic_from_ns(static_cast<std::int64_t>(std::clamp(due_ns, 0.0, latest_ns)));
 }
 
 StageStep::Verdict StageStep::verdict(std::size_t rig) const {

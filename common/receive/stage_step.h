@@ -47,10 +47,10 @@ class StageStep {
     /// Initially true for every rig.
     void set_at_stage_rate(std::size_t rig, bool is_at_it) { rigs_[rig].at_stage_rate = is_at_it; }
 
-    /// By how much the rig's pulses come earlier than those of most rigs that are active; 0 for a
-    /// rig that is not ahead, or if there are fewer than three, since two cannot outvote each
-    /// other.
-    std::chrono::nanoseconds ahead_of_most(std::size_t rig, MonotonicTime now) const;
+    /// When frames of pulse `trigger_index` arrive from most active rigs, by their leads. Rigs at
+    /// another rate than the stage's count as in the election. Empty if fewer than three rigs
+    /// count, since two cannot outvote each other.
+    std::optional<MonotonicTime> due(std::uint64_t trigger_index, MonotonicTime now) const;
 
     /// Whether a frame came from the rig within the silence limit.
     bool active(std::size_t rig, MonotonicTime now) const;

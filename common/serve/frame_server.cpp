@@ -222,9 +222,13 @@ bool FrameServer::is_revoked(const std::string& route, zmq::message_t& part) {
     const std::string key = host_key_of(part);
     if (admission_->lists(key)) return false;
     const std::lock_guard lock(mutex_);
-    if (links_.dismiss(key))
-        log_warning("the host at {} is no longer served: its key {} was removed from {}",
-                    address_of(part), key, admission_->path().string());
+    if (!links_.dismiss(key)) {
+        // It was told why, and speaks on.
+        strangers_.disconnect(part);
+        return true;
+    }
+    log_warning("the host at {} is no longer served: its key {} was removed from {}",
+                address_of(part), key, admission_->path().string());
     links_.refuse(route, fmt::format("rig {} no longer admits this host: its key was removed from "
                                      "the rig's authorized_hosts; pair them again, or add the key",
                                      rig_));

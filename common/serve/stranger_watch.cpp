@@ -69,6 +69,15 @@ void StrangerWatch::hear(zmq::message_t& part) {
     if (unheard_hosts_ > 0) --unheard_hosts_;
 }
 
+void StrangerWatch::disconnect(zmq::message_t& part) const {
+    const int descriptor = zmq_msg_get(part.handle(), ZMQ_SRCFD);
+    const auto connection = open_.find(descriptor);
+    if (connection == open_.end() || connection->second.address.empty()) return;
+    // Another connection may have got the descriptor; at worst it is one from the same address,
+    // which connects anew.
+    if (peer_address(descriptor) == connection->second.address) ::shutdown(descriptor, SHUT_RDWR);
+}
+
 void StrangerWatch::look(MonotonicTime now) {
     for (int i = 0; i < events_per_turn; ++i) {
         std::vector<zmq::message_t> parts;

@@ -14,9 +14,9 @@
 
 namespace vantage {
 
-/// Logs and counts connections to a listening socket that end before they turn out to be a host's.
-/// Each kind is logged once in a while, with its count. Used by the socket's thread, which polls
-/// socket() and calls look().
+/// Logs and counts connections to a listening socket that end before they turn out to be a host's,
+/// and ends those of hosts that are not admitted any more. Each kind is logged once in a while,
+/// with its count. Used by the socket's thread, which polls socket() and calls look().
 class StrangerWatch {
   public:
     /// The socket has to close a connection whose handshake takes longer.
@@ -35,6 +35,10 @@ class StrangerWatch {
     void expect_keys() { has_keys_ = true; }
     /// Takes in a message; its connection is a host's.
     void hear(zmq::message_t& part);
+    /// Ends the connection that a message came over. ZeroMQ has no call for that: its socket is
+    /// shut down in both directions, and ZeroMQ then closes it as if the other end had left. Does
+    /// nothing if the connection has ended meanwhile.
+    void disconnect(zmq::message_t& part) const;
     /// Handles waiting events and logs lines that are due. Never waits.
     void look(MonotonicTime now);
 

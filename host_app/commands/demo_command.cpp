@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
@@ -146,6 +147,15 @@ void require_running(const std::vector<std::unique_ptr<ChildProcess>>& rigs,
     }
 }
 
+/// Whether every rig has begun to publish, as its log says.
+bool are_publishing(const DemoStage& stage) {
+    constexpr std::size_t max_log_bytes = 1 << 20;
+    return std::all_of(stage.rigs().begin(), stage.rigs().end(), [&](const std::string& name) {
+        const std::filesystem::path log = stage.folder() / (name + ".log");
+        return read_text_file(log, max_log_bytes).find("publishing on ") != std::string::npos;
+    });
+}
+
 LiveOptions live_options(const DemoOptions& options, const std::filesystem::path& folder,
                          const DemoStage& stage, const std::string& rate,
                          const std::filesystem::path& move) {
@@ -253,7 +263,13 @@ void demo(DemoOptions options) {
         StopSignal stop;
         fmt::print("ready: {}\n", stage.stage_file().string());
         std::fflush(stdout);
-        while (!stop.wait_for(std::chrono::milliseconds(200))) require_running(rigs, stage);
+        // Later a rig may end and be started anew by whoever plays with them.
+        bool is_begun = false;
+        while (!stop.wait_for(std::chrono::milliseconds(200))) {
+            if (is_begun) continue;
+            require_running(rigs, stage);
+            is_begun = are_publishing(stage);
+        }
         return;
     }
     // With material of a real rig and a window, the camera starts at the rig.

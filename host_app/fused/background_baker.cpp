@@ -36,6 +36,7 @@ void BackgroundBaker::forget() {
     merging_.reset();
     divided_.reset();
     modelled_.clear();
+    surfaces_.drop_free();
     placed_for_.clear();
     probes_.clear();
     baked_.reset();

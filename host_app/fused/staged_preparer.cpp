@@ -102,6 +102,17 @@ void StagedPreparer::cut() {
     is_after_cut_ = true;
 }
 
+void StagedPreparer::keep_only(const std::set<std::string>& rigs) {
+    if (!rigs_.keep_only(rigs)) return;
+    // Work in progress may refer to them.
+    prepared_rigs_.clear();
+    refinement_pass_.reset();
+    matched_.reset();
+    std::erase_if(misfits_, [&](const auto& misfit) { return !rigs.contains(misfit.first); });
+    surfaces_.drop_free();
+    pictures_.drop_free();
+}
+
 void StagedPreparer::learn(std::span<RigHistory* const> rigs) {
     for (RigHistory* rig : rigs) {
         const auto holds = [rig](const std::vector<RigHistory*>& some) {

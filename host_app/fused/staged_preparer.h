@@ -43,6 +43,7 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     bool is_improvement_urgent() const override { return baker_.is_first_under_way(); }
     void warm_up(std::span<const DepthView> views, const VirtualView& target) override;
     void cut() override;
+    void keep_only(const std::set<std::string>& rigs) override;
     BackgroundAccess* background_access() override { return this; }
 
   private:

@@ -38,6 +38,7 @@ class ForegroundPreparer final : public InstantPreparer {
     void take(std::span<const DepthView> views, double dt_s) override;
     std::shared_ptr<const Instant> prepare(const VirtualView& target,
                                            const PrepareLevel& level) override;
+    void keep_only(const std::set<std::string>& rigs) override { (void)rigs_.keep_only(rigs); }
 
   private:
     std::shared_ptr<RigSurface> surface_of(const RigHistory& rig, const Texture& depth_m,

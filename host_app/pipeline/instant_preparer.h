@@ -1,6 +1,8 @@
 #pragma once
 
+#include <set>
 #include <span>
+#include <string>
 
 #include "host_app/background/background_access.h"
 #include "host_app/surfaces/instant.h"
@@ -61,6 +63,10 @@ class InstantPreparer {
     /// Announces that the next instant does not follow the last one (a cut). Forgets what was
     /// tracked of moving things and keeps the background.
     virtual void cut() {}
+
+    /// Forgets the rigs that are not named here, once they are not shown any more: they were
+    /// removed from the stage.
+    virtual void keep_only(const std::set<std::string>& /*rigs*/) {}
 
     /// Returns access to the learnt background, or null if the preparer learns none.
     virtual BackgroundAccess* background_access() { return nullptr; }

@@ -43,6 +43,13 @@ constexpr double max_gap_s = 1;
 /// Ends preparation when the request has jumped in time meanwhile.
 struct JumpedInTime {};
 
+/// Also those whose frame is missing.
+std::set<std::string> rigs_of(const FrameSet& set) {
+    std::set<std::string> rigs;
+    for (const FrameSet::Slot& slot : set.slots) rigs.insert(slot.rig);
+    return rigs;
+}
+
 std::optional<TaiTime> earliest_exposure(const FrameSet& set) {
     std::optional<TaiTime> exposure;
     for (const FrameSet::Slot& slot : set.slots)
@@ -414,6 +421,7 @@ void InstantThread::Loop::prepare_set(FrameSetSource::Past next, const InstantRe
     // While the past is shown, the camera says nothing about the rigs that are needed live.
     if (is_live) {
         demand_.forget_others(next.set);
+        preparer_->keep_only(rigs_of(next.set));
         ask_for_rigs(views, request);
     }
     const auto prepare = [&] {

@@ -34,6 +34,12 @@ class RecyclePool {
                 }};
     }
 
+    /// Destroys the free objects.
+    void drop_free() {
+        const std::lock_guard lock(shelf_->mutex);
+        shelf_->free.clear();
+    }
+
   private:
     struct Shelf {
         std::mutex mutex;

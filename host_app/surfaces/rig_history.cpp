@@ -115,6 +115,13 @@ void RigRoster::forget() {
     for (const auto& rig : rigs_) rig->forget();
 }
 
+bool RigRoster::keep_only(const std::set<std::string>& names) {
+    return std::erase_if(rigs_, [&](const auto& rig) {
+               return !names.contains(rig->camera().name) &&
+                      std::find(shown_.begin(), shown_.end(), rig.get()) == shown_.end();
+           }) > 0;
+}
+
 std::vector<RigHistory*> RigRoster::known() const {
     std::vector<RigHistory*> all;
     for (const auto& rig : rigs_) all.push_back(rig.get());

@@ -4,7 +4,9 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "common/gl/objects/framebuffer.h"
@@ -290,6 +292,9 @@ class RigRoster {
     void cut();
     /// Forgets all that was learnt of all rigs.
     void forget();
+    /// Destroys the rigs that are not named here, except those that are shown. Returns whether
+    /// there were any.
+    bool keep_only(const std::set<std::string>& names);
 
     /// The rigs of the last upload and those that are fading out.
     const std::vector<RigHistory*>& shown() const { return shown_; }

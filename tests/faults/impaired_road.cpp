@@ -187,6 +187,7 @@ void ImpairedRoad::take_in(std::size_t end) {
         const std::lock_guard lock(mutex_);
         const std::uint64_t number = ++way.packets;
         ++counts_.came;
+        counts_.bytes += static_cast<std::uint64_t>(bytes);
         const RoadTrouble& trouble = troubles_[end];
         const bool is_in_run = trouble.lose_every > 0 && number >= trouble.lose_every &&
                                number % trouble.lose_every < trouble.lose_run;

@@ -60,6 +60,7 @@ class ImpairedRoad {
 
     struct Counts {
         std::uint64_t came = 0, lost = 0, duplicated = 0, corrupted = 0, late = 0;
+        std::uint64_t bytes = 0;  ///< of what came, also of what was lost then
     };
     /// Of both ways together.
     Counts counts() const;

@@ -96,7 +96,7 @@ TEST_F(HostileShow, HoldsItsTicksAndLosesNoFrameOfAnotherRig) {
         EXPECT_EQ(rig["link"]["lost"], 0);
         for (const char* what : {"undecodable", "duplicate", "unsynchronized"})
             EXPECT_EQ(rig["host"][what], 0) << what << ": " << rig;
-        // The first one may come while the hostile rig is alone.
+        // The first one may come while the hostile rig is alone, before this one is connected.
         EXPECT_LE(rig["host"]["late"].get<int>() + rig["host"]["out_of_step"].get<int>(), 1);
         EXPECT_GT(rig["host"]["fused"], 0) << rig;
     }

@@ -1,5 +1,6 @@
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <set>
 #include <string>
@@ -13,6 +14,7 @@
 #include "host_app/commands/demo/demo_stage.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -21,6 +23,19 @@ namespace {
 bool serves(const std::string& stage) {
     return run_to_end(VANTAGE_PROGRAM, {"rigs", "status", "--stage", stage, "--wait", "1"})
                .status == 0;
+}
+
+/// Kills the vantage-rig that has this argument. Returns whether there was one.
+bool kill_program_with(const std::string& argument) {
+    for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+        std::ifstream file(process.path() / "cmdline");
+        std::string name, word;
+        std::getline(file, name, '\0');
+        if (!name.ends_with("vantage-rig")) continue;
+        while (std::getline(file, word, '\0'))
+            if (word == argument) return ::kill(std::stoi(process.path().filename()), SIGKILL) == 0;
+    }
+    return false;
 }
 
 class Demo : public testing::Test {
@@ -117,6 +132,21 @@ TEST_F(Demo, RigsEndWithTheDemo) {
     bool is_gone = false;
     for (int tries = 0; tries < 20 && !is_gone; ++tries) is_gone = !serves(stage);
     EXPECT_TRUE(is_gone);
+}
+
+TEST_F(Demo, GoesOnWithRigsAloneWhenOneIsKilled) {
+    ChildProgram demo(VANTAGE_PROGRAM,
+                      {"demo", "--files", file("left.png"), file("right.png"), "--rigs-only",
+                       "--folder", file("out")},
+                      folder_.path());
+    ASSERT_TRUE(eventually([&] { return demo.out().starts_with("ready: "); })) << demo.err();
+    const std::string stage = file("out/demo/stage.toml");
+    ASSERT_TRUE(eventually([&] { return serves(stage); })) << demo.err();
+    ASSERT_TRUE(kill_program_with(file("out/demo/pair.toml")));
+    ASSERT_TRUE(eventually([&] { return !serves(stage); }));
+    EXPECT_FALSE(demo.ended()) << demo.err();
+    demo.send_signal(SIGINT);
+    EXPECT_EQ(demo.wait().status, 130);
 }
 
 TEST_F(Demo, ReportsFaultsOfAPair) {

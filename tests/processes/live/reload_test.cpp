@@ -110,8 +110,7 @@ TEST_F(Reload, ARigJoinsOneLeavesAndABadFileIsRefusedWhileTheShowGoesOn) {
     const nlohmann::json summary = nlohmann::json::parse(result.out);
     EXPECT_EQ(summary["stage_reloads"]["done"], 3);
     EXPECT_EQ(summary["stage_reloads"]["refused"], 1);
-    // Shaders for three rigs are compiled when the third one joins.
-    EXPECT_LE(summary["missed_ticks"].get<double>(), 0.25 * summary["pictures"].get<double>())
+    EXPECT_LE(summary["missed_ticks"].get<double>(), 1 + 0.02 * summary["pictures"].get<double>())
         << summary["tick_late_ms"];
     EXPECT_EQ(summary["faults"], 0) << result.err;
     ASSERT_EQ(summary["rigs"].size(), 3u);

@@ -6,7 +6,9 @@
 #include <time.h>
 
 // For LD_PRELOAD into a program of Vantage: SIGUSR1 sets its clocks of the time of day forward and
-// SIGUSR2 back, as a person or NTP does, by a second or by CLOCK_SET_MS milliseconds.
+// SIGUSR2 back, as a person or NTP does, by a second or by CLOCK_SET_MS milliseconds. With
+// CLOCK_SET_BY_RTMIN these are SIGRTMIN + 1 and + 2, so that another such library can have the
+// others.
 
 namespace {
 
@@ -31,8 +33,9 @@ void add(timespec& time, long ns) {
 
 [[gnu::constructor]] void listen() {
     if (const char* ms = std::getenv("CLOCK_SET_MS")) step_ns = ns_per_ms * std::atol(ms);
-    std::signal(SIGUSR1, set_ahead);
-    std::signal(SIGUSR2, set_back);
+    const bool by_rtmin = std::getenv("CLOCK_SET_BY_RTMIN") != nullptr;
+    std::signal(by_rtmin ? SIGRTMIN + 1 : SIGUSR1, set_ahead);
+    std::signal(by_rtmin ? SIGRTMIN + 2 : SIGUSR2, set_back);
 }
 
 template <class Function>

@@ -601,5 +601,69 @@ TEST(FrameSetAssembler, ARigThatRunsAheadDoesNotMakeTheOthersLate) {
     }
 }
 
+TEST(FrameSetAssembler, ARigThatIsAloneAtTheStartCostsTheOthersNoFrame) {
+    for (const std::uint64_t ahead : {0, 1, 4, 20}) {
+        Stage stage(3);
+        for (const std::size_t rig : {1, 2}) stage.assembler().set_coming(rig, true);
+        for (std::uint64_t k = 100; k <= 105; ++k) {
+            stage.at(k, 5ms);
+            (void)stage.frame(0, k);
+            (void)stage.frame(0, k + ahead);
+            EXPECT_THAT(stage.closed(), IsEmpty()) << "the others are about to come";
+        }
+        for (std::uint64_t k = 105; k <= 140; ++k) {
+            stage.at(k, 5ms);
+            (void)stage.frame(0, k);
+            (void)stage.closed();
+            stage.at(k, 30ms);
+            for (const std::size_t rig : {1, 2})
+                EXPECT_EQ(stage.frame(rig, k), FrameFate::in_frame_set) << k << ", " << ahead;
+            EXPECT_THAT(stage.closed_indices(), testing::Contains(k));
+        }
+    }
+}
+
+TEST(FrameSetAssembler, WaitsAtTheStartOnlyWhileOtherRigsAreAboutToCome) {
+    Stage stage(3);
+    for (const std::size_t rig : {1, 2}) stage.assembler().set_coming(rig, true);
+    stage.assembler().set_connected(1, false);
+    stage.at(100, 5ms);
+    stage.frame(0, 100);
+    EXPECT_THAT(stage.closed(), IsEmpty());
+    stage.assembler().set_coming(2, false);
+    EXPECT_THAT(stage.closed_indices(), ElementsAre(100)) << "one is off, the other one is mute";
+}
+
+TEST(FrameSetAssembler, WaitsAtTheStartForALimitedTime) {
+    Stage stage(3);
+    for (const std::size_t rig : {1, 2}) stage.assembler().set_coming(rig, true);
+    stage.at(100, 5ms);
+    stage.frame(0, 100);
+    const MonotonicTime end = stage.now() + FrameSetAssembler::longest_gathering;
+    EXPECT_EQ(stage.assembler().next_deadline(), end);
+    stage.pass(FrameSetAssembler::longest_gathering - 1ms);
+    EXPECT_THAT(stage.closed(), IsEmpty());
+    stage.pass(1ms);
+    EXPECT_THAT(stage.closed_indices(), ElementsAre(100));
+}
+
+TEST(FrameSetAssembler, MostRigsGiveUpTheOrderThatOneAloneSetFarAhead) {
+    Stage stage(3);
+    constexpr std::uint64_t ahead = budget / pulse_period + 5;
+    stage.at(100, 10ms);
+    (void)stage.frame(0, 100 + ahead);
+    EXPECT_THAT(stage.closed_indices(), ElementsAre(100 + ahead)) << "nobody else is there";
+    stage.at(101, 10ms);
+    EXPECT_EQ(stage.frame(1, 101), FrameFate::late) << "one against one";
+    EXPECT_EQ(stage.frame(2, 101), FrameFate::in_frame_set);
+    (void)stage.closed();
+    for (std::uint64_t k = 102; k < 120; ++k) {
+        stage.at(k, 10ms);
+        for (const std::size_t rig : {1, 2})
+            EXPECT_EQ(stage.frame(rig, k), FrameFate::in_frame_set) << k;
+        (void)stage.closed();
+    }
+}
+
 }  // namespace
 }  // namespace vantage

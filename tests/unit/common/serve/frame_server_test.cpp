@@ -107,6 +107,21 @@ class TalkingHost {
         }
     }
 
+    /// Speaks on, whatever the answers are, until the connection is ended; false if it never is.
+    bool is_cut_off() {
+        zmq::socket_t events(context_, zmq::socket_type::pair);
+        zmq_socket_monitor(socket_.handle(), "inproc://events", ZMQ_EVENT_DISCONNECTED);
+        events.set(zmq::sockopt::linger, 0);
+        events.connect("inproc://events");
+        const bool is_cut = eventually([&] {
+            socket_.send(zmq::buffer(encode(HostMessage{.host_id = 1})), zmq::send_flags::dontwait);
+            zmq::message_t event;
+            return events.recv(event, zmq::recv_flags::dontwait).has_value();
+        });
+        zmq_socket_monitor(socket_.handle(), nullptr, 0);
+        return is_cut;
+    }
+
   private:
     zmq::context_t context_;
     zmq::socket_t socket_;
@@ -147,6 +162,11 @@ TEST(FrameServer, StopsServingAConnectedHostWhoseKeyIsRemoved) {
               1u);
     list(first.public_key + "\n" + second.public_key + "\n");
     removed.speak_until(false);
+    list(second.public_key + "\n");
+    EXPECT_TRUE(removed.is_cut_off());
+    kept.speak_until(false);
+    list("");
+    EXPECT_TRUE(kept.is_cut_off()) << "the list is empty now";
 }
 
 // ZeroMQ aborts the program (libzmq issue 3442) where a connection breaks at the moment at which

@@ -483,5 +483,30 @@ TEST_F(StagedPreparerTest, KeepsTheBackgroundOfARigThatWasAway) {
     EXPECT_LT(learnt_off_m(1), 0.02);
 }
 
+TEST_F(StagedPreparerTest, ForgetsARemovedRigOnceItIsNotShown) {
+    std::vector<DepthView> views{film(false), film(false)};
+    views[1].name = "other";
+    for (int i = 0; i < 8; ++i) preparer_.take(views, 0.2);
+    (void)prepared(views[0]);
+    preparer_.take(views, 0.2);
+    preparer_.keep_only({"only"});
+    EXPECT_EQ(preparer_.background_access()->learnt().rigs.size(), 2u) << "it is shown";
+    for (int i = 0; i < 3; ++i) {
+        preparer_.keep_only({"only"});
+        EXPECT_EQ(prepared(views[0])->rigs.size(), 1u);
+        // Whatever is under way must not touch what was destroyed.
+        preparer_.improve(
+            {staged_width_px, staged_height_px, views[0].K, views[0].world_from_camera});
+    }
+    const Background learnt = preparer_.background_access()->learnt();
+    ASSERT_EQ(learnt.rigs.size(), 1u);
+    EXPECT_EQ(learnt.rigs[0].rig, "only");
+    EXPECT_LT(learnt_off_m(0), 0.02) << "the other one keeps its own";
+    views[1] = film(true);
+    views[1].name = "other";
+    preparer_.take(views, 0.2);
+    EXPECT_GT(learnt_off_m(1), 1) << "it is learnt anew: the square counts as background";
+}
+
 }  // namespace
 }  // namespace vantage

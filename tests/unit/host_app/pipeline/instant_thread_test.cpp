@@ -27,7 +27,8 @@ struct Orders {
     std::atomic<bool> draws_next_until_released = false, is_released = false;
     std::atomic<int> made = 0, taken = 0, prepared = 0, cuts = 0, rank = 0;
     std::atomic<int> warm_ups = 0, taken_at_warm_up = 0;
-    std::atomic<std::size_t> warm_up_rigs = 0;
+    std::atomic<std::size_t> warm_up_rigs = 0, kept_rigs = 0;
+    std::atomic<bool> keeps_south = false;
     std::atomic<double> warm_up_apart_m = 0;  ///< the first two of them
     std::function<void()> at_warm_up;         ///< set before the first set is pushed
     std::atomic<double> dt_s = 0;
@@ -67,6 +68,10 @@ class OrderedPreparer final : public InstantPreparer {
         orders_->taken_at_warm_up = orders_->taken.load();
     }
     void cut() override { ++orders_->cuts; }
+    void keep_only(const std::set<std::string>& rigs) override {
+        orders_->kept_rigs = rigs.size();
+        orders_->keeps_south = rigs.contains("south");
+    }
 
   private:
     std::shared_ptr<Orders> orders_;
@@ -433,6 +438,23 @@ TEST_F(InstantThreadTest, RethrowsWhatTheFeedThrew) {
             return std::string(error.what()) == "the receiver broke";
         }
     }));
+}
+
+TEST_F(InstantThreadTest, ForgetsTheRigsThatTheStageHasNoLonger) {
+    FrameSet without_frame = feed_.set(1, {"north"});
+    feed_.push(without_frame);
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_EQ(orders_->kept_rigs, 2u);
+    EXPECT_TRUE(orders_->keeps_south) << "its frame alone is missing";
+    FrameSet without_slot = feed_.set(2, {"north"});
+    without_slot.slots.pop_back();
+    feed_.push(without_slot);
+    ASSERT_TRUE(wait_for_pulse(2));
+    EXPECT_EQ(orders_->kept_rigs, 1u);
+    EXPECT_FALSE(orders_->keeps_south);
+    go_to(1, 1);
+    ASSERT_TRUE(wait_for_pulse(1));
+    EXPECT_EQ(orders_->kept_rigs, 1u) << "the past says nothing about the stage of now";
 }
 
 TEST_F(InstantThreadTest, InstantsOutliveTheThread) {

@@ -44,6 +44,17 @@ TEST_F(RecyclePoolTest, NeverHandsOutAnObjectThatIsHeld) {
     EXPECT_NE(pool.take().get(), copy.get());
 }
 
+TEST_F(RecyclePoolTest, DropsItsFreeObjectsOnly) {
+    RecyclePool<Counted> pool;
+    const std::shared_ptr<Counted> held = pool.take();
+    (void)pool.take();
+    ASSERT_EQ(Counted::alive, 2);
+    pool.drop_free();
+    EXPECT_EQ(Counted::alive, 1);
+    (void)pool.take();
+    EXPECT_EQ(Counted::alive, 2);
+}
+
 TEST_F(RecyclePoolTest, AcceptsObjectsFromAnyThread) {
     RecyclePool<Counted> pool;
     for (int round = 0; round < 50; ++round) {
