@@ -154,18 +154,17 @@ class SurfaceChoice {
     /// The distance of the surface that counts at a pixel, metres; 0 if there is none.
     float choose(cv::Point pixel) const {
         const cv::Vec4f& candidates = candidates_m_(pixel);
-        cv::Vec4f costs;
-        float least = std::numeric_limits<float>::infinity();
+        float nearest = std::numeric_limits<float>::infinity(), farthest = 0;
         for (int k = 0; k < most_rigs; ++k) {
             if (candidates[k] <= 0) continue;
-            costs[k] = cost(pixel, candidates[k]);
-            least = std::min(least, costs[k]);
+            nearest = std::min(nearest, candidates[k]);
+            farthest = std::max(farthest, candidates[k]);
         }
-        float nearest = std::numeric_limits<float>::infinity();
-        for (int k = 0; k < most_rigs; ++k)
-            if (candidates[k] > 0 && costs[k] <= least + nearer_gain)
-                nearest = std::min(nearest, candidates[k]);
-        return std::isfinite(nearest) ? mean_of_rigs(pixel, nearest) : 0;
+        if (farthest == 0) return 0;
+        // Most pixels have one surface, and costs take time.
+        if (farthest > (1 + rigs_.front().tolerance(nearest)) * nearest)
+            nearest = nearest_of_cheap(pixel, candidates);
+        return mean_of_rigs(pixel, nearest);
     }
 
     /// Enters a surface at a pixel with its colour and the rigs that see it.
@@ -204,6 +203,17 @@ class SurfaceChoice {
         for (std::size_t i = 0; i < rigs_.size(); ++i)
             sights[i] = rigs_[i].look(pixel, point(pixel, z));
         return sights;
+    }
+
+    float nearest_of_cheap(cv::Point pixel, const cv::Vec4f& candidates) const {
+        constexpr float infinite = std::numeric_limits<float>::infinity();
+        cv::Vec4f costs = cv::Vec4f::all(infinite);
+        float least = infinite, nearest = infinite;
+        for (int k = 0; k < most_rigs; ++k)
+            if (candidates[k] > 0) least = std::min(least, costs[k] = cost(pixel, candidates[k]));
+        for (int k = 0; k < most_rigs; ++k)
+            if (costs[k] <= least + nearer_gain) nearest = std::min(nearest, candidates[k]);
+        return nearest;
     }
 
     float cost(cv::Point pixel, float z) const {

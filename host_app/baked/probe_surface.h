@@ -34,7 +34,7 @@ struct ProbeSurface {
 /// nearest surface counts that costs little more than the cheapest one, since thin things have few
 /// rigs that agree on them. Its depth is the mean of the rigs that have it.
 ///
-/// Takes a quarter of a second for 575x431 pixels and four rigs, on any one thread.
+/// Takes a tenth of a second for 575x431 pixels and four rigs, on any one thread.
 ///
 /// @param candidates_m each rig's surface in the probe's view, metres, a channel per rig; 0 = none.
 /// @param rigs at most four.
