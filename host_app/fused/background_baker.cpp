@@ -194,10 +194,8 @@ void BackgroundBaker::choose() {
     tiles_ = std::async(
         std::launch::async,
         [view = probes_[chosen_->probe].view, pictures = std::move(pictures),
-         candidates_m = cv::Mat4f(candidates_m_.texture().download()), parallax = parallax_px_m_,
-         is_first = !is_current(probes_[chosen_->probe])] {
+         candidates_m = cv::Mat4f(candidates_m_.texture().download()), parallax = parallax_px_m_] {
             name_this_thread("bg probe");
-            if (!is_first) make_this_thread_idle();
             const TraceSpan span("background probe");
             return probe_tiles(view, probe_surface(view, candidates_m, pictures), parallax);
         });
