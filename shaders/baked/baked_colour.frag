@@ -1,14 +1,17 @@
-// The colours of a baked background at this instant, behind a foreground: every rig that sees the surface contributes its
-// colour, weighted by how well it sees it, by the angle of its line of sight to the virtual camera's and by its
-// confidence. Where none does, the colour is the one that was baked.
+// The colours of a baked background at this instant, behind a foreground: every rig that saw the surface when it was baked,
+// and whose newest depth still has it, contributes its colour. Its weight is how well it saw the surface, times the
+// confidence, and falls with the angle of its line of sight to the virtual camera's. Where no rig does, the colour is the
+// one that was baked, unless a rig sees past the surface now.
 #ifndef LAYERS
 #define LAYERS 2
 #endif
 #include "rig_layers.glsl"
+#include "tolerances.glsl"
 
 uniform sampler2D baked_colour;      // alpha is below one half where the place was never seen
 uniform sampler2D baked_depth;       // metres, 0 = nothing, negative where the place was never seen
 uniform sampler2D visibility;        // how well each rig sees the surface, in the order of the layers
+uniform float softness;              // relative depth within which two surfaces are one
 uniform sampler2D foreground;        // premultiplied by alpha
 uniform sampler2D foreground_depth;  // metres, 0 = none
 #if ORIGINS
@@ -19,9 +22,9 @@ layout(location = 0) out vec4 shown;
 layout(location = 1) out float shown_z;
 
 const float typical = 100.0;  // the scene's typical depth, relative to the near plane's
-const int steps = 3;          // from there to the surface that a rig sees
+const int steps = 3;          // from such a surface to the one that a rig sees
 
-void add(int i, sampler2D picture, vec2 pixel, float z, float sees, inout vec3 sum, inout float weight, inout vec4 shares,
+void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, float sees, inout vec3 sum, inout float weight, inout vec4 shares,
          inout float confidence) {
     if (sees <= 0.0) return;
     vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
@@ -30,6 +33,10 @@ void add(int i, sampler2D picture, vec2 pixel, float z, float sees, inout vec3 s
     vec2 margin = min(uv, 1.0 - uv);
     float inside = min(margin.x, margin.y);
     if (inside < 0.0) return;
+    vec4 off = abs(abs(textureGather(map, uv)) / q.z - 1.0);
+    float nearest = min(min(off.x, off.y), min(off.z, off.w));
+    sees *= 1.0 - smoothstep(1.0, 2.0, nearest / (softness + spread[i] * q.z));
+    if (sees <= 0.0) return;
     // A software rasteriser reads one level instead of two.
     vec4 seen = textureLod(picture, uv, floor(detail_level(pixel_from_target[i], z, q.z) + 0.5));
     float away = apart(ray_from_pixel * vec3(pixel, 1.0) * z, centre[i]);
@@ -40,9 +47,9 @@ void add(int i, sampler2D picture, vec2 pixel, float z, float sees, inout vec3 s
     confidence = max(confidence, seen.a);
 }
 
-// Shows what a rig sees where no probe reaches. Returns false if it sees nothing there.
-bool show_from(int i, sampler2D picture, sampler2D map, vec2 pixel) {
-    float z = typical * near_m;
+// Where a rig sees past a surface at depth z, which no rig has any more, shows what that rig sees there: it sees past
+// where its own depth is at least a share of the surface's. Returns false where it does not.
+bool show_past(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, float share) {
     vec2 uv;
     for (int k = 0; k < steps; ++k) {
         vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
@@ -50,7 +57,7 @@ bool show_from(int i, sampler2D picture, sampler2D map, vec2 pixel) {
         vec2 margin = min(uv, 1.0 - uv);
         if (q.z <= 0.0 || min(margin.x, margin.y) < 0.0) return false;
         float there = abs(textureLod(map, uv, 0.0).r);
-        if (there <= 0.0) return false;
+        if (there <= 0.0 || (k == 0 && there < share * q.z)) return false;
         z *= there / q.z;
     }
     shown = vec4(textureLod(picture, uv, 0.0).rgb, 1.0);
@@ -61,24 +68,32 @@ bool show_from(int i, sampler2D picture, sampler2D map, vec2 pixel) {
     return true;
 }
 
+// Shows what the first rig sees that sees past a surface at depth z.
+void show_what_rigs_see(vec2 pixel, float z, float share) {
+    bool is_shown = false;
+#define SHOW_FROM(i) is_shown = is_shown || show_past(i, colour[i], source_depth[i], pixel, z, share);
+    FOR_LAYERS(SHOW_FROM)
+}
+
 void show_background(ivec2 at) {
     float own = texelFetch(baked_depth, at, 0).r, z = abs(own);
     shown = texelFetch(baked_colour, at, 0);
     shown_z = own;
     tell_origins(vec4(0.0));
     if (z == 0.0) {
-        bool is_shown = false;
-#define SHOW_FROM(i) is_shown = is_shown || show_from(i, colour[i], source_depth[i], vec2(at));
-        FOR_LAYERS(SHOW_FROM)
+        show_what_rigs_see(vec2(at), typical * near_m, 0.0);  // no probe reaches here
         return;
     }
     vec4 sees = texelFetch(visibility, at, 0);
     vec3 sum = vec3(0.0);
     vec4 shares = vec4(0.0);
     float weight = 0.0, confidence = 0.0;
-#define ADD(i) add(i, colour[i], vec2(at), z, sees[i], sum, weight, shares, confidence);
+#define ADD(i) add(i, colour[i], source_depth[i], vec2(at), z, sees[i], sum, weight, shares, confidence);
     FOR_LAYERS(ADD)
-    if (weight == 0.0) return;
+    if (weight == 0.0) {
+        show_what_rigs_see(vec2(at), z, 1.0 + view_edge_share);
+        return;
+    }
     shown = vec4(sum / weight, alpha_of(own > 0.0, confidence));
     shown_z = z;
     tell_origins(shares / weight);
