@@ -246,16 +246,19 @@ DepthImage inverse_of(const DepthImage& depth_m) {
 }
 
 BackgroundProbe::Part part_of(std::size_t first, std::size_t tiles, const ColourImage& colour,
-                              const DepthImage& inverse, float cell_px, bool is_guessed) {
+                              const DepthImage& inverse, const cv::Mat4b& visibility, float cell_px,
+                              bool is_guessed) {
     BackgroundProbe::Part part{
         first,
         tiles,
         Texture(TextureFormat::rgba8, colour.cols, colour.rows, Filter::linear),
         Texture(TextureFormat::r32f, inverse.cols, inverse.rows),
+        Texture(TextureFormat::rgba8, visibility.cols, visibility.rows, Filter::linear),
         cell_px,
         is_guessed};
     part.colour.upload(colour);
     part.inverse_depth.upload(inverse);
+    part.visibility.upload(visibility);
     return part;
 }
 
@@ -268,15 +271,6 @@ Buffer indices_of(const ProbeTiles& probe) {
         for (const unsigned k : {0U, 2U, 1U, 1U, 2U, 3U})
             indices.push_back(4 * static_cast<std::uint32_t>(i) + k);
     return Buffer::of(std::span<const std::uint32_t>(indices));
-}
-
-/// Returns the distances of the places that have a colour.
-DepthImage distances_of(const ColourImage& colour, const DepthImage& depth_m) {
-    DepthImage distance_m = cv::abs(depth_m);
-    for (int y = 0; y < distance_m.rows; ++y)
-        for (int x = 0; x < distance_m.cols; ++x)
-            if (colour(y, x)[3] == 0) distance_m(y, x) = 0;
-    return distance_m;
 }
 
 /// Continues surfaces into the holes around them, up to `widest_filled_px` from each side. Holes
@@ -309,10 +303,9 @@ void fill_holes(ColourImage& colour, DepthImage& depth_m) {
 
 }  // namespace
 
-ProbeTiles probe_tiles(const VirtualView& view, const ColourImage& colour,
-                       const DepthImage& depth_m, double parallax_px_m) {
-    DepthImage distance_m = distances_of(colour, depth_m);
-    ColourImage filled = colour.clone();
+ProbeTiles probe_tiles(const VirtualView& view, const ProbeSurface& surface, double parallax_px_m) {
+    DepthImage distance_m = cv::abs(surface.depth_m);
+    ColourImage filled = surface.colour.clone();
     fill_holes(filled, distance_m);
     ProbeTiles probe{
         .view = view,
@@ -320,6 +313,8 @@ ProbeTiles probe_tiles(const VirtualView& view, const ColourImage& colour,
                               static_cast<float>(tile_error_px / std::max(parallax_px_m, 1e-3))),
         .inverse_depth = inverse_of(distance_m),
         .colour = filled,
+        .visibility = surface.visibility,
+        .rigs = surface.rigs,
         .backdrop = backdrop_colours(filled, distance_m, backdrop_cell_px)};
     probe.surface_tiles = probe.tiles.size();
     const std::vector<DepthTile> backdrop = backdrop_tiles(distance_m, backdrop_cell_px);
@@ -331,9 +326,12 @@ ProbeTiles probe_tiles(const VirtualView& view, const ColourImage& colour,
 
 BackgroundProbe::BackgroundProbe(const ProbeTiles& tiles)
     : view_(tiles.view),
-      surfaces_(part_of(0, tiles.surface_tiles, tiles.colour, tiles.inverse_depth, 1, false)),
+      rigs_(tiles.rigs),
+      surfaces_(part_of(0, tiles.surface_tiles, tiles.colour, tiles.inverse_depth, tiles.visibility,
+                        1, false)),
       backdrop_(part_of(tiles.surface_tiles, tiles.tiles.size() - tiles.surface_tiles,
-                        tiles.backdrop, DepthImage(1, 1, 1.0f), backdrop_cell_px, true)),
+                        tiles.backdrop, DepthImage(1, 1, 1.0f), cv::Mat4b(1, 1, cv::Vec4b()),
+                        backdrop_cell_px, true)),
       vertices_(vertices_of(tiles)),
       indices_(indices_of(tiles)) {}
 

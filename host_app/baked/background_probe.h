@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -11,6 +12,7 @@
 #include "common/gl/objects/buffer.h"
 #include "common/gl/objects/texture.h"
 #include "common/image/image.h"
+#include "host_app/baked/probe_surface.h"
 #include "host_app/surfaces/instant.h"
 #include "host_app/views/depth_view.h"
 
@@ -55,14 +57,13 @@ struct ProbeTiles {
     std::size_t surface_tiles = 0;
     DepthImage inverse_depth;  ///< 1/m, 0 = none
     ColourImage colour;        ///< rgba8, alpha below 128 where no rig sees the place
-    ColourImage backdrop;      ///< the colours of the backdrop, one pixel a cell
+    cv::Mat4b visibility;      ///< how well each of `rigs` sees the place
+    std::vector<std::string> rigs;
+    ColourImage backdrop;  ///< the colours of the backdrop, one pixel a cell
 };
 
-/// Divides a picture of `view` into tiles. `colour` is as in ProbeTiles; `depth_m` is in metres,
-/// 0 = none, negative where it is inpainted. `parallax_px_m` is the parallax that an inverse depth
-/// of 1/m has in the views that will be drawn from the probe, px m.
-ProbeTiles probe_tiles(const VirtualView& view, const ColourImage& colour,
-                       const DepthImage& depth_m, double parallax_px_m);
+/// Divides what `view` sees into tiles. `parallax_px_m` is as in probe_surface().
+ProbeTiles probe_tiles(const VirtualView& view, const ProbeSurface& surface, double parallax_px_m);
 
 /// One view of the background on the GPU, which other views are drawn from. Immutable.
 class BackgroundProbe {
@@ -74,11 +75,14 @@ class BackgroundProbe {
         std::size_t first_tile = 0, tiles = 0;
         Texture colour;         ///< rgba8
         Texture inverse_depth;  ///< r32f, 1/m, 0 = none
+        Texture visibility;     ///< rgba8, how well each of rigs() sees it
         float cell_px = 1;      ///< pixels of the view that a pixel of `colour` spans
         bool is_guessed = false;
     };
 
     const VirtualView& view() const { return view_; }
+    /// Whose channels the visibility has.
+    const std::vector<std::string>& rigs() const { return rigs_; }
     const Buffer& vertices() const { return vertices_; }
     const Buffer& indices() const { return indices_; }
     const Part& surfaces() const { return surfaces_; }
@@ -87,6 +91,7 @@ class BackgroundProbe {
 
   private:
     VirtualView view_;
+    std::vector<std::string> rigs_;
     Part surfaces_, backdrop_;
     Buffer vertices_, indices_;
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "common/gl/objects/program.h"
 #include "common/gl/objects/vertex_array.h"
@@ -20,12 +21,14 @@ class BakedPainter {
     explicit BakedPainter(const ShaderLibrary& library);
 
     /// Draws `view`. Alpha is that of the probes' pictures, and depth is negative where the place
-    /// was never seen. The result is valid until the next call.
-    const DepthPicture& draw(const BakedBackground& background, const VirtualView& view);
+    /// was never seen. The shares are how well each of `rigs`, at most four, sees the surface. The
+    /// result is valid until the next call.
+    const DepthPicture& draw(const BakedBackground& background, const VirtualView& view,
+                             std::span<const std::string> rigs);
 
   private:
     void draw(const BackgroundProbe& probe, const BackgroundProbe::Part& part,
-              const VirtualView& view);
+              const VirtualView& view, std::span<const std::string> rigs);
 
     Program program_;
     DrawnDepth depth_test_;

@@ -24,17 +24,16 @@ bool is_same_rig(const ProbeRig& a, const ProbeRig& b) {
 }  // namespace
 
 BackgroundBaker::BackgroundBaker(const ShaderLibrary& library)
-    : depth_(library),
-      colour_(library),
-      layers_(library),
+    : layers_(library),
+      candidates_pass_(library, "probe_candidates.frag", same_surface_share),
       edge_confidence_(library),
       triangles_(library),
       learnt_colours_(library, "learnt_colours.frag") {}
 
 void BackgroundBaker::forget() {
     drawing_.reset();
-    merging_.reset();
-    divided_.reset();
+    drawn_.reset();
+    chosen_.reset();
     modelled_.clear();
     surfaces_.drop_free();
     placed_for_.clear();
@@ -68,7 +67,7 @@ std::shared_ptr<const RigSurface> BackgroundBaker::surface_of(const RigHistory& 
     program.input("confidence", surface->confidence().texture());
     learnt_colours_.draw(surface->colour_target());
     surface->finish_colour();
-    kept = {model, surface};
+    kept = {model, surface, nullptr};
     return surface;
 }
 
@@ -114,7 +113,11 @@ void BackgroundBaker::begin(std::span<RigHistory* const> rigs, const VirtualView
                             double now_s) {
     double modelled_s = 0;
     bool is_rough = false;
+    bool knows_matches = true;
+    int matches = 0;
     for (const RigHistory* rig : rigs) {
+        knows_matches = knows_matches && rig->model()->matches == rig->matches();
+        matches += rig->model()->matches;
         modelled_s = std::max(modelled_s, rig->model()->made_s);
         is_rough = is_rough || rig->model()->rank > 0;
     }
@@ -124,12 +127,14 @@ void BackgroundBaker::begin(std::span<RigHistory* const> rigs, const VirtualView
     for (const std::size_t i : wanted) {
         const Probe& probe = probes_[i];
         const bool is_due = !is_current(probe) || (probe.is_rough && !is_rough) ||
+                            (knows_matches && probe.matches < matches) ||
                             (probe.made_s < modelled_s && now_s - probe.made_s >= probe.rest_s);
         if (!is_due) continue;
         Drawing drawing;
         drawing.probe = i;
         drawing.begun_s = now_s;
         drawing.is_rough = is_rough;
+        drawing.matches = matches;
         for (const RigHistory* rig : most_useful(rigs, probe.view, most_drawn_rigs))
             drawing.rigs.push_back(rig->camera().name);
         if (drawing.rigs.empty()) continue;
@@ -162,41 +167,51 @@ bool BackgroundBaker::draw(std::span<RigHistory* const> rigs) {
         layers_.draw_layer(now.drawn++, now.is_rough ? QuadGrid::coarse : QuadGrid::fine);
         return true;
     }
-    merge();
+    draw_candidates();
     return true;
 }
 
-void BackgroundBaker::merge() {
-    merging_ = std::exchange(drawing_, std::nullopt);
-    const VirtualView& view = probes_[merging_->probe].view;
-    const cv::Size size(view.width_px, view.height_px);
-    picture_.resize(size);
-    depth_m_ = &depth_.find(layers_, size);
-    colour_.draw_plainly(layers_, *depth_m_, picture_, false);
-    merged_ = Fence::insert();
+void BackgroundBaker::draw_candidates() {
+    drawn_ = std::exchange(drawing_, std::nullopt);
+    const VirtualView& view = probes_[drawn_->probe].view;
+    candidates_m_.resize({view.width_px, view.height_px});
+    candidates_pass_.use(layers_, false).overwrite(candidates_m_.target());
+    candidates_drawn_ = Fence::insert();
 }
 
-void BackgroundBaker::divide() {
-    divided_ = std::exchange(merging_, std::nullopt);
+std::shared_ptr<const BackgroundPicture> BackgroundBaker::picture_of(const std::string& rig) {
+    ModelSurface& kept = modelled_[rig];
+    if (!kept.picture)
+        kept.picture = std::make_shared<const BackgroundPicture>(BackgroundPicture{
+            kept.surface->camera(), ColourImage(kept.surface->colour().download()),
+            DepthImage(kept.surface->depth().download())});
+    return kept.picture;
+}
+
+void BackgroundBaker::choose() {
+    chosen_ = std::exchange(drawn_, std::nullopt);
+    std::vector<std::shared_ptr<const BackgroundPicture>> pictures;
+    for (const std::string& rig : chosen_->rigs) pictures.push_back(picture_of(rig));
     tiles_ = std::async(
         std::launch::async,
-        [view = probes_[divided_->probe].view, colour = ColourImage(picture_.colour().download()),
-         depth_m = DepthImage(depth_m_->download()), parallax = parallax_px_m_] {
-            name_this_thread("bg tiles");
-            const TraceSpan span("background tiles");
-            return probe_tiles(view, colour, depth_m, parallax);
+        [view = probes_[chosen_->probe].view, pictures = std::move(pictures),
+         candidates_m = cv::Mat4f(candidates_m_.texture().download()), parallax = parallax_px_m_] {
+            name_this_thread("bg probe");
+            const TraceSpan span("background probe");
+            return probe_tiles(view, probe_surface(view, candidates_m, pictures), parallax);
         });
 }
 
 void BackgroundBaker::take_over(const ProbeTiles& tiles) {
-    Probe& probe = probes_[divided_->probe];
+    Probe& probe = probes_[chosen_->probe];
     const bool was_refined = probe.made && !probe.is_rough;
     probe.rest_s = was_refined
                        ? std::clamp(2 * probe.rest_s, first_probe_rest_s, longest_probe_rest_s)
                        : first_probe_rest_s;
     probe.made = std::make_shared<const BackgroundProbe>(tiles);
-    probe.made_s = divided_->begun_s;
-    probe.is_rough = divided_->is_rough;
+    probe.made_s = chosen_->begun_s;
+    probe.is_rough = chosen_->is_rough;
+    probe.matches = chosen_->matches;
     auto extra = std::make_shared<BakedExtra>();
     for (const Probe& one : probes_)
         if (one.made) extra->background.probes.push_back(one.made);
@@ -211,14 +226,14 @@ bool BackgroundBaker::step(std::span<RigHistory* const> rigs, const VirtualView&
         if (!waits && tiles_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             return false;
         const ProbeTiles tiles = tiles_.get();
-        if (divided_) take_over(tiles);
-        divided_.reset();
+        if (chosen_) take_over(tiles);
+        chosen_.reset();
         return true;
     }
-    if (merging_) {
+    if (drawn_) {
         // The thread has instants to prepare while the GPU draws.
-        if (!waits && !merged_.reached()) return false;
-        divide();
+        if (!waits && !candidates_drawn_.reached()) return false;
+        choose();
         return waits;
     }
     if (!drawing_) begin(rigs, target, now_s);

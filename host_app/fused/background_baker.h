@@ -10,7 +10,7 @@
 
 #include "common/gl/objects/fence.h"
 #include "host_app/baked/background_probe.h"
-#include "host_app/fused/fused_colour.h"
+#include "host_app/baked/probe_surface.h"
 #include "host_app/refine/edge_confidence.h"
 #include "host_app/surfaces/rig_history.h"
 #include "host_app/surfaces/rig_surface.h"
@@ -52,9 +52,11 @@ class BackgroundBaker {
         double made_s = 0;     ///< when its baking began, on the preparer's clock
         double rest_s = 0;     ///< time before it is baked again
         bool is_rough = true;  ///< not all models were refined by then
+        int matches = 0;       ///< of all models by then
     };
     struct ModelSurface {
         std::shared_ptr<const RigSurface> model, surface;
+        std::shared_ptr<const BackgroundPicture> picture;  ///< of the surface; null until needed
     };
     /// A probe that is being drawn.
     struct Drawing {
@@ -64,6 +66,7 @@ class BackgroundBaker {
         std::size_t drawn = 0;                                    ///< of the surfaces
         double begun_s = 0;
         bool is_rough = true;  ///< not all models are refined
+        int matches = 0;       ///< of all models
     };
 
     void place_probes(std::span<RigHistory* const> rigs);
@@ -78,17 +81,17 @@ class BackgroundBaker {
     void begin(std::span<RigHistory* const> rigs, const VirtualView& target, double now_s);
     /// Does the next step of drawing. Returns false if it was the last one.
     bool draw(std::span<RigHistory* const> rigs);
-    /// Begins to merge the surfaces into the probe's picture.
-    void merge();
-    /// Reads the merged picture back and divides it into tiles on another thread.
-    void divide();
+    /// Begins to draw what the probe's pixels may show.
+    void draw_candidates();
+    /// Reads that back, and on another thread chooses surfaces and divides them into tiles.
+    void choose();
     void take_over(const ProbeTiles& tiles);
+    /// Reads a rig's background back, once per model.
+    std::shared_ptr<const BackgroundPicture> picture_of(const std::string& rig);
 
-    FusedDepth depth_;
-    FusedColour colour_;
     RigLayers layers_;
-    DepthPicture picture_;
-    const Texture* depth_m_ = nullptr;  ///< depth_'s last result
+    LayerPass candidates_pass_;
+    DrawnTexture candidates_m_{TextureFormat::rgba32f};
     EdgeConfidence edge_confidence_;
     TriangleBuilder triangles_;
     FullscreenPass learnt_colours_;
@@ -100,9 +103,9 @@ class BackgroundBaker {
     double parallax_px_m_ = 0;
     double changed_s_ = -1;
     std::optional<Drawing> drawing_;
-    std::optional<Drawing> merging_;  ///< whose picture the GPU merges
-    Fence merged_;
-    std::optional<Drawing> divided_;  ///< whose tiles are awaited; empty: nobody wants them
+    std::optional<Drawing> drawn_;  ///< whose candidates the GPU draws
+    Fence candidates_drawn_;
+    std::optional<Drawing> chosen_;  ///< whose tiles are awaited; empty: nobody wants them
     std::future<ProbeTiles> tiles_;
     std::shared_ptr<const BakedExtra> baked_;  ///< null until the first probe is made
 };

@@ -28,6 +28,12 @@ constexpr float inner_kind = 0.25f, empty_kind = 0.5f, edge_kind = 0.75f;
 
 const char* const fragment = "fused_colour.frag";
 
+/// The alphas of places that no rig sees now.
+void set_alphas(Program& program) {
+    program.set("remembered_confidence", RigSurface::remembered_confidence);
+    program.set("remembered_alpha", remembered_alpha / 255.0f);
+}
+
 }  // namespace
 
 FusedColour::FusedColour(const ShaderLibrary& library)
@@ -37,7 +43,7 @@ FusedColour::FusedColour(const ShaderLibrary& library)
       inner_(library, fragment, same_surface_share, {{"EDGES", "0"}}),
       edges_(library, fragment, same_surface_share, {{"EDGES", "1"}}),
       plain_(library, "fused_plain.frag", same_surface_share),
-      on_baked_(library, "fused_plain.frag", same_surface_share, {{"BAKED", "1"}}) {}
+      on_baked_(library, "baked_colour.frag", same_surface_share) {}
 
 const Texture& FusedColour::sort(const Texture& fused_depth) {
     kinds_.resize(fused_depth.size());
@@ -57,8 +63,7 @@ FullscreenPass& FusedColour::use(LayerPass& pass, const RigLayers& layers,
     Program& program = drawing.use();
     program.input("fused_depth", fused_depth);
     program.set("edge_ratio", 1 + view_edge_share);
-    program.set("remembered_confidence", RigSurface::remembered_confidence);
-    program.set("remembered_alpha", remembered_alpha / 255.0f);
+    set_alphas(program);
     return drawing;
 }
 
@@ -70,9 +75,12 @@ void FusedColour::draw_plainly(const RigLayers& layers, const Texture& fused_dep
 void FusedColour::draw_on_baked(const RigLayers& layers, const DepthPicture& baked,
                                 const DepthPicture& foreground, const DepthPicture& into,
                                 bool notes_origins) {
-    FullscreenPass& pass = use(on_baked_, layers, baked.depth_m(), notes_origins);
+    FullscreenPass& pass = on_baked_.use(layers, notes_origins);
     Program& program = pass.use();
+    set_alphas(program);
     program.input("baked_colour", baked.colour());
+    program.input("baked_depth", baked.depth_m());
+    program.input("visibility", *baked.shares());
     program.input("foreground", foreground.colour());
     program.input("foreground_depth", foreground.depth_m());
     if (notes_origins) program.input("foreground_shares", *foreground.shares());

@@ -1,5 +1,6 @@
 #include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -78,7 +79,9 @@ class FusedRenderer final : public ViewRenderer {
         const bool notes_origins = blender_.notes_origins();
         RigLayers& layers = blender_.layers();
         layers.begin(layers_of(rigs), view);
-        const DepthPicture& baked = baked_.draw(background, view);
+        std::vector<std::string> names;
+        for (const InstantRig* rig : rigs) names.push_back(rig->camera().name);
+        const DepthPicture& baked = baked_.draw(background, view, names);
         const DepthPicture& foreground = performers_.show_alone(
             baked.depth_m(), notes_origins, layers_of(rigs, &InstantRig::boundary), view);
         picture_.resize({view.width_px, view.height_px}, notes_origins);

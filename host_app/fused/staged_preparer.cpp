@@ -334,6 +334,7 @@ std::deque<MultiViewRefinement::Step> StagedPreparer::model_in_steps(RigHistory&
                            .rest_s = first_model_rest_s,
                            .made_s = now_s_,
                            .made = is_patched ? before->made : rig.learnt_instants(),
+                           .matches = rig.matches(),
                            .learnt_m = copy_of(*measured_m, TextureFormat::r32f),
                            .colour = copy_of(rig.colour(), TextureFormat::rgba8)};
     if (before && before->rank == 0)

@@ -19,6 +19,7 @@ void RigHistory::forget() {
     model_.reset();
     right_jpegs_.clear();
     match_.reset();
+    matches_ = 0;
     hide();
 }
 
@@ -58,6 +59,7 @@ void RigHistory::set_background_match(const DepthImage& depth_m, const DepthImag
         filled.upload(image);
         return filled;
     };
+    ++matches_;
     match_.emplace(Match{texture(TextureFormat::r32f, depth_m),
                          texture(TextureFormat::r32f, learnt_m),
                          texture(TextureFormat::rgba8, colour)});

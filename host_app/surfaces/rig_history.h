@@ -191,6 +191,7 @@ class RigHistory {
         double rest_s = 0;  ///< time before a new refinement can gain anything
         double made_s = 0;  ///< on the preparer's clock
         int made = 0;       ///< learnt_instants() by then
+        int matches = 0;    ///< matches() of the rig by then
         /// steady_depth() and colour() by then.
         std::shared_ptr<const DrawnTexture> learnt_m = nullptr, colour = nullptr;
     };
@@ -207,6 +208,8 @@ class RigHistory {
         Texture learnt_m, colour;  ///< r32f and rgba8: the background at that time
     };
     const std::optional<Match>& match() const { return match_; }
+    /// Runs of background stereo that gave this rig a depth.
+    int matches() const { return matches_; }
     /// All three have one size: that of depth() or smaller.
     void set_background_match(const DepthImage& depth_m, const DepthImage& learnt_m,
                               const ColourImage& colour);
@@ -265,6 +268,7 @@ class RigHistory {
     std::optional<Model> model_;
     std::deque<SharedBytes> right_jpegs_;
     std::optional<Match> match_;
+    int matches_ = 0;
     DrawnTexture matched_depth_{TextureFormat::r32f};
     DrawnTexture matte_{TextureFormat::r8, Filter::linear};
     DrawnTexture matte_tiles_{TextureFormat::r8};

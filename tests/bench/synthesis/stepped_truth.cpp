@@ -34,6 +34,15 @@ struct Truth {
     cv::Mat1b performers, edges, regions;
 };
 
+Truth true_picture(VirtualStage& stage, const StageCamera& camera, nanoseconds time,
+                   const TruthRegions& regions) {
+    const StageRendering seen = stage.render(camera, time);
+    constexpr int band_px = 5;
+    Truth truth{seen.colour, regions.performers(seen.depth_m), {}, regions.of(seen.depth_m)};
+    truth.edges = band_of(truth.performers, band_px);
+    return truth;
+}
+
 /// A camera that stands still on the stage.
 class StillCamera {
   public:
@@ -48,14 +57,7 @@ class StillCamera {
 
     const CameraState& state() const { return state_; }
 
-    Truth film(nanoseconds time) const {
-        const StageRendering seen = stage_->render(camera_, time);
-        constexpr int band_px = 5;
-        Truth truth{
-            seen.colour, regions_->performers(seen.depth_m), {}, regions_->of(seen.depth_m)};
-        truth.edges = band_of(truth.performers, band_px);
-        return truth;
-    }
+    Truth film(nanoseconds time) const { return true_picture(*stage_, camera_, time, *regions_); }
 
   private:
     VirtualStage* stage_;
@@ -158,12 +160,45 @@ std::vector<std::unique_ptr<MatchingRig>> rigs_of(const ShaderLibrary& library,
     return rigs;
 }
 
+/// All rigs' views of a moment, with the stage's own depth where it is wanted.
+class Filming {
+  public:
+    Filming(std::span<const std::unique_ptr<MatchingRig>> rigs, const SteppedTruth& wanted,
+            VirtualStage& truth_stage)
+        : rigs_(rigs), has_own_depth_(!wanted.with_exact_depth), exact_in_(wanted.exact_in) {
+        if (exact_in_.empty()) return;
+        for (const auto& rig : rigs) regions_.emplace_back(truth_stage, rig->camera());
+    }
+
+    std::vector<DepthView> film(VirtualStage& stage, nanoseconds time, std::uint64_t k) const {
+        std::vector<DepthView> views;
+        for (std::size_t i = 0; i < rigs_.size(); ++i) {
+            rigs_[i]->film(stage, time, k);
+            views.push_back(rigs_[i]->view(has_own_depth_));
+            if (exact_in_.empty()) continue;
+            DepthImage depth_m = views.back().depth_m.clone();
+            DepthImage exact_m = rigs_[i]->view(false).depth_m;
+            cv::Mat1b regions = regions_[i].of(exact_m);
+            cv::resize(regions, regions, depth_m.size(), 0, 0, cv::INTER_NEAREST);
+            cv::resize(exact_m, exact_m, depth_m.size(), 0, 0, cv::INTER_NEAREST);
+            for (const TruthRegion region : exact_in_)
+                exact_m.copyTo(depth_m, regions == static_cast<uchar>(region));
+            views.back().depth_m = depth_m;
+        }
+        return views;
+    }
+
+  private:
+    std::span<const std::unique_ptr<MatchingRig>> rigs_;
+    bool has_own_depth_;
+    std::vector<TruthRegion> exact_in_;
+    std::vector<TruthRegions> regions_;
+};
+
 std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
     VirtualStage stage(library, set), truth_stage(library, set);
     const std::vector<std::unique_ptr<MatchingRig>> rigs = rigs_of(library, wanted);
-    std::vector<TruthRegions> rig_regions;
-    if (!wanted.exact_in.empty())
-        for (const auto& rig : rigs) rig_regions.emplace_back(truth_stage, rig->camera());
+    const Filming filming(rigs, wanted, truth_stage);
     std::vector<StillCamera> cameras;
     for (const double place : wanted.cameras)
         cameras.emplace_back(truth_stage, place * wanted.apart_deg, wanted.rigs.size);
@@ -203,17 +238,7 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
     for (std::uint64_t k = 0; k < instants; ++k) {
         const nanoseconds time =
             nanoseconds_of(wanted.start_s + static_cast<double>(k) / wanted.rate_hz);
-        std::vector<DepthView> views;
-        for (const auto& rig : rigs) {
-            rig->film(stage, time, k);
-            views.push_back(rig->view(!wanted.with_exact_depth));
-            if (wanted.exact_in.empty()) continue;
-            const DepthImage exact_m = rig->view(false).depth_m;
-            const cv::Mat1b regions = rig_regions[views.size() - 1].of(exact_m);
-            views.back().depth_m = views.back().depth_m.clone();
-            for (const TruthRegion region : wanted.exact_in)
-                exact_m.copyTo(views.back().depth_m, regions == static_cast<uchar>(region));
-        }
+        const std::vector<DepthView> views = filming.film(stage, time, k);
         std::vector<Truth> truths;
         if (k >= settled)
             for (const StillCamera& camera : cameras) truths.push_back(camera.film(time));
@@ -295,6 +320,7 @@ std::string flown_rows(const ShaderLibrary& library, const SteppedTruth& wanted,
                        std::uint64_t scene) {
     VirtualStage stage(library, scene), truth_stage(library, scene);
     const std::vector<std::unique_ptr<MatchingRig>> rigs = rigs_of(library, wanted);
+    const Filming filming(rigs, wanted, truth_stage);
     const Move move = Move::load(wanted.flight);
     const cv::Size size = wanted.flown_size;
     std::string text;
@@ -303,16 +329,14 @@ std::string flown_rows(const ShaderLibrary& library, const SteppedTruth& wanted,
         const std::unique_ptr<InstantPreparer> preparer = entry.make_preparer(library);
         ViewPainter painter(entry, {.width_px = size.width, .height_px = size.height}, library);
         Fidelity fidelity;
+        RegionalError regional;
         const double rate_hz = wanted.rate_hz;
         const auto instants = std::llround((wanted.settling_s + wanted.measured_s) * rate_hz);
         for (std::int64_t k = 0; k < instants; ++k) {
             const double time_s = static_cast<double>(k) / rate_hz;
             const nanoseconds time = nanoseconds_of(wanted.start_s + time_s);
-            std::vector<DepthView> views;
-            for (const auto& rig : rigs) {
-                rig->film(stage, time, static_cast<std::uint64_t>(k));
-                views.push_back(rig->view(!wanted.with_exact_depth));
-            }
+            const std::vector<DepthView> views =
+                filming.film(stage, time, static_cast<std::uint64_t>(k));
             const CameraState camera = move.at(time_s).camera();
             const VirtualView target = view_of(camera, size);
             preparer->take(views, 1 / rate_hz);
@@ -322,33 +346,56 @@ std::string flown_rows(const ShaderLibrary& library, const SteppedTruth& wanted,
             if (time_s < wanted.settling_s) continue;
             const ColourImage picture = painter.paint(
                 *instant, camera, render_levels()[static_cast<std::size_t>(wanted.render_level)]);
-            const ColourImage truth =
-                truth_stage
-                    .render({size.width, size.height, camera.K(size.width, size.height),
-                             camera.world_from_camera},
-                            time, {.pictures = StagePictures::colour})
-                    .colour;
+            const StageCamera place{size.width, size.height, camera.K(size.width, size.height),
+                                    camera.world_from_camera};
+            ColourImage truth;
+            if (wanted.with_regions) {
+                const Truth seen =
+                    true_picture(truth_stage, place, time, TruthRegions(truth_stage, place));
+                regional.add(picture, seen);
+                truth = seen.colour;
+            } else {
+                truth = truth_stage.render(place, time, {.pictures = StagePictures::colour}).colour;
+            }
             fidelity.add(picture, truth);
             if (!wanted.pictures.empty())
                 write_beside(wanted.pictures, fmt::format("{}_scene{}_{:03}", name, scene, k),
                              picture, truth);
         }
-        text += fmt::format("| {} | {} | {:.2f} | {:.3f} | {:.1f} % |\n", name, scene,
+        text += fmt::format("| {} | {} | {:.2f} | {:.3f} | {:.1f} % |", name, scene,
                             fidelity.psnr_db(), fidelity.ssim(), 100 * fidelity.outliers());
+        if (wanted.with_regions) text += regional.row();
+        text += "\n";
     }
     return text;
+}
+
+/// The columns of RegionalError::row().
+std::string region_names(const SteppedTruth& wanted) {
+    std::string names;
+    if (wanted.with_regions)
+        for (const TruthRegion region : all_truth_regions)
+            names += fmt::format(" {} |", words_of(region));
+    return names;
+}
+
+std::string region_rules(const SteppedTruth& wanted) {
+    std::string rules;
+    if (wanted.with_regions)
+        for (std::size_t i = 0; i < all_truth_regions.size(); ++i) rules += " --- |";
+    return rules;
 }
 
 std::string flown_table(const ShaderLibrary& library, const SteppedTruth& wanted) {
     std::string text = fmt::format(
         "Four rigs of {}x{}, {:g} degrees apart, {} depth. {:g} instants a second, prepared at "
         "level {} and rendered at level {}; a camera of {}x{} that flies a move, from {:g} s on "
-        "and for {:g} s.\n\n| synthesiser | scene | PSNR dB | SSIM | outlier pixels |\n"
-        "| --- | --- | --- | --- | --- |\n",
+        "and for {:g} s.\n\n| synthesiser | scene | PSNR dB | SSIM | outlier pixels |{}\n"
+        "| --- | --- | --- | --- | --- |{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg,
         wanted.with_exact_depth ? "exact" : "own", wanted.rate_hz, wanted.prepare_level,
         wanted.render_level, wanted.flown_size.width, wanted.flown_size.height, wanted.settling_s,
-        wanted.measured_s);
+        wanted.measured_s, region_names(wanted), region_rules(wanted));
     for (const std::uint64_t scene : wanted.sets) text += flown_rows(library, wanted, scene);
     return text;
 }
@@ -364,24 +411,15 @@ std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& want
         "| synthesiser | scene | PSNR dB | of the background | of performers | SSIM | outlier "
         "pixels | performers' "
         "edges: mean error | flicker: background | performers | IV-PSNR dB / IV-SSIM | of "
-        "performers |{}\n"
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}\n",
+        "performers |{}{}\n"
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
         wanted.with_exact_depth ? "exact" : "own", wanted.knows_set ? ", a set learnt before" : "",
         wanted.rate_hz, wanted.prepare_level, wanted.render_level, fmt::join(wanted.cameras, ", "),
         wanted.settling_s, wanted.measured_s,
         wanted.with_times ? " Times are of the processor, milliseconds an instant or picture." : "",
-        wanted.with_times ? " take | prepare | render |" : "",
-        wanted.with_times ? " --- | --- | --- |" : "");
-    if (wanted.with_regions) {
-        std::string names, rule;
-        for (const TruthRegion region : all_truth_regions) {
-            names += fmt::format(" {} |", words_of(region));
-            rule += " --- |";
-        }
-        text.insert(text.rfind("\n", text.size() - 2), names);
-        text.insert(text.size() - 1, rule);
-    }
+        wanted.with_times ? " take | prepare | render |" : "", region_names(wanted),
+        wanted.with_times ? " --- | --- | --- |" : "", region_rules(wanted));
     for (const std::uint64_t set : wanted.sets) text += rows(library, wanted, set);
     return text;
 }

@@ -79,14 +79,20 @@ TEST(DepthTiles, BackdropHasNoHolesAndStandsBehind) {
         }
 }
 
-TEST(ProbeTiles, ReplacePlacesWithoutColourAndKeepSmallThings) {
+ProbeTiles tiles_of(const ColourImage& colour, const DepthImage& depth_m, double parallax_px_m) {
+    return probe_tiles({map_width_px, map_height_px},
+                       {depth_m, colour, cv::Mat4b(depth_m.size(), cv::Vec4b()), {}},
+                       parallax_px_m);
+}
+
+TEST(ProbeTiles, FillPlacesWithoutASurfaceAndKeepSmallThings) {
     DepthImage depth_m(map_height_px, map_width_px, 4.0f);
     ColourImage colour(depth_m.size(), cv::Vec4b(90, 90, 90, 255));
     depth_m(cv::Rect(10, 10, 3, 3)) = 2;
+    depth_m(cv::Rect(40, 20, 8, 8)) = 0;
     colour(cv::Rect(40, 20, 8, 8)) = cv::Vec4b(0, 0, 0, 0);
     constexpr double parallax_px_m = 100;
-    const ProbeTiles probe =
-        probe_tiles({map_width_px, map_height_px}, colour, depth_m, parallax_px_m);
+    const ProbeTiles probe = tiles_of(colour, depth_m, parallax_px_m);
     EXPECT_FLOAT_EQ(probe.inverse_depth(24, 44), 0.25f);
     EXPECT_EQ(probe.colour(24, 44)[0], 90);
     EXPECT_LT(probe.colour(24, 44)[3], 128) << "it is as if it had been seen";
@@ -100,15 +106,13 @@ TEST(ProbeTiles, ContinueTheFartherSurfaceIntoAHole) {
     depth_m(cv::Rect(0, 0, 28, map_height_px)) = 2;
     depth_m(cv::Rect(28, 0, 8, map_height_px)) = 0;
     const ColourImage colour(depth_m.size(), cv::Vec4b(90, 90, 90, 255));
-    const ProbeTiles probe = probe_tiles({map_width_px, map_height_px}, colour, depth_m, 100);
+    const ProbeTiles probe = tiles_of(colour, depth_m, 100);
     // Each side meets a half of it; there the farther one prevails.
     EXPECT_FLOAT_EQ(probe.inverse_depth(20, 33), 0.25f);
     EXPECT_FLOAT_EQ(probe.inverse_depth(20, 27), 0.5f);
     DepthImage wide = depth_m.clone();
     wide(cv::Rect(28, 0, map_width_px - 28, map_height_px)) = 0;
-    EXPECT_EQ(probe_tiles({map_width_px, map_height_px}, colour, wide, 100)
-                  .inverse_depth(20, map_width_px - 2),
-              0)
+    EXPECT_EQ(tiles_of(colour, wide, 100).inverse_depth(20, map_width_px - 2), 0)
         << "what is far from all surfaces is left to the backdrop";
 }
 
