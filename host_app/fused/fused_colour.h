@@ -42,8 +42,8 @@ class FusedColour {
 
     /// Draws the image of a baked background (see BakedPainter) behind a foreground (see
     /// ForegroundLayers::show_alone()) at low cost: the colours of this instant from the rigs that
-    /// saw the surface when it was baked, and the baked colours elsewhere. `baked` is drawn for the
-    /// layers' rigs.
+    /// saw the surface when it was baked and still have it, and the baked colours elsewhere.
+    /// `baked` is drawn for the layers' rigs.
     void draw_on_baked(const RigLayers& layers, const DepthPicture& baked,
                        const DepthPicture& foreground, const DepthPicture& into,
                        bool notes_origins);

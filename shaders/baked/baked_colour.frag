@@ -5,13 +5,12 @@
 #ifndef LAYERS
 #define LAYERS 2
 #endif
-#include "rig_layers.glsl"
+#include "plain_blend.glsl"
 #include "tolerances.glsl"
 
 uniform sampler2D baked_colour;      // alpha is below one half where the place was never seen
 uniform sampler2D baked_depth;       // metres, 0 = nothing, negative where the place was never seen
 uniform sampler2D visibility;        // how well each rig sees the surface, in the order of the layers
-uniform float softness;              // relative depth within which two surfaces are one
 uniform sampler2D foreground;        // premultiplied by alpha
 uniform sampler2D foreground_depth;  // metres, 0 = none
 #if ORIGINS
@@ -23,29 +22,6 @@ layout(location = 1) out float shown_z;
 
 const float typical = 100.0;  // the scene's typical depth, relative to the near plane's
 const int steps = 3;          // from such a surface to the one that a rig sees
-
-void add(int i, sampler2D picture, sampler2D map, vec2 pixel, float z, float sees, inout vec3 sum, inout float weight, inout vec4 shares,
-         inout float confidence) {
-    if (sees <= 0.0) return;
-    vec4 q = pixel_from_target[i] * vec4(pixel * z, z, 1.0);
-    if (q.z <= 0.0) return;
-    vec2 uv = (q.xy / q.z + 0.5) / colour_size[i];
-    vec2 margin = min(uv, 1.0 - uv);
-    float inside = min(margin.x, margin.y);
-    if (inside < 0.0) return;
-    vec4 off = abs(abs(textureGather(map, uv)) / q.z - 1.0);
-    float nearest = min(min(off.x, off.y), min(off.z, off.w));
-    sees *= 1.0 - smoothstep(1.0, 2.0, nearest / (softness + spread[i] * q.z));
-    if (sees <= 0.0) return;
-    // A software rasteriser reads one level instead of two.
-    vec4 seen = textureLod(picture, uv, floor(detail_level(pixel_from_target[i], z, q.z) + 0.5));
-    float away = apart(ray_from_pixel * vec3(pixel, 1.0) * z, centre[i]);
-    float w = presence[i] * sees * (seen.a + 0.001) * (smoothstep(0.0, 0.04, inside) + 0.001) / (away + 1e-5);
-    sum += w * seen.rgb;
-    weight += w;
-    shares[i] += w;
-    confidence = max(confidence, seen.a);
-}
 
 // Where a rig sees past a surface at depth z, which no rig has any more, shows what that rig sees there: it sees past
 // where its own depth is at least a share of the surface's. Returns false where it does not.
@@ -85,18 +61,16 @@ void show_background(ivec2 at) {
         return;
     }
     vec4 sees = texelFetch(visibility, at, 0);
-    vec3 sum = vec3(0.0);
-    vec4 shares = vec4(0.0);
-    float weight = 0.0, confidence = 0.0;
-#define ADD(i) add(i, colour[i], source_depth[i], vec2(at), z, sees[i], sum, weight, shares, confidence);
+    Blend blend = Blend(vec3(0.0), vec4(0.0), 0.0, 0.0);
+#define ADD(i) add(i, colour[i], source_depth[i], vec2(at), z, sees[i], blend);
     FOR_LAYERS(ADD)
-    if (weight == 0.0) {
+    if (blend.weight == 0.0) {
         show_what_rigs_see(vec2(at), z, 1.0 + view_edge_share);
         return;
     }
-    shown = vec4(sum / weight, alpha_of(own > 0.0, confidence));
+    shown = vec4(blend.sum / blend.weight, alpha_of(own > 0.0, blend.confidence));
     shown_z = z;
-    tell_origins(shares / weight);
+    tell_origins(blend.shares / blend.weight);
 }
 
 void main() {
