@@ -109,8 +109,8 @@ void FrameSetAssembler::begin_anew(MonotonicTime now) {
 }
 
 std::optional<MonotonicTime> FrameSetAssembler::end_of_gathering() const {
-    constexpr std::size_t fewest = 3;
-    if (is_gathered_ || order_.size() < fewest || !first_heard_) return std::nullopt;
+    if (is_gathered_ || order_.size() < StageStep::fewest_to_outvote || !first_heard_)
+        return std::nullopt;
     const bool any_coming = std::any_of(order_.begin(), order_.end(), [&](std::size_t rig) {
         return rigs_[rig].connected && rigs_[rig].is_coming && !rigs_[rig].newest;
     });

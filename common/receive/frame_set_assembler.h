@@ -13,6 +13,7 @@
 #include "common/base/time/time.h"
 #include "common/receive/frame_set.h"
 #include "common/receive/stage_step.h"
+#include "common/receive/take_starter.h"
 
 namespace vantage {
 
@@ -55,8 +56,8 @@ class FrameSetAssembler {
     /// Open frame sets at a time; a further one closes the oldest.
     static constexpr std::size_t max_open_frame_sets = 32;
     /// The longest wait for the first frames of other rigs after the stage's first frame, as long
-    /// as a stage waits for its rigs before the first pulse (TakeStarter::longest_wait).
-    static constexpr std::chrono::seconds longest_gathering{15};
+    /// as a stage waits for its rigs before the first pulse.
+    static constexpr std::chrono::seconds longest_gathering = TakeStarter::longest_wait;
 
     FrameSetAssembler(std::vector<std::string> rigs, const Options& options);
 

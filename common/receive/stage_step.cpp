@@ -40,7 +40,6 @@ bool StageStep::active(std::size_t rig, MonotonicTime now) const {
 }
 
 std::optional<MonotonicTime> StageStep::due(std::uint64_t trigger_index, MonotonicTime now) const {
-    constexpr std::size_t fewest = 3;
     bool any_at_rate = false;
     for (std::size_t i = 0; i < rigs_.size(); ++i)
         any_at_rate = any_at_rate || (active(i, now) && rigs_[i].at_stage_rate);
@@ -48,7 +47,7 @@ std::optional<MonotonicTime> StageStep::due(std::uint64_t trigger_index, Monoton
     for (std::size_t i = 0; i < rigs_.size(); ++i)
         if (active(i, now) && (rigs_[i].at_stage_rate || !any_at_rate))
             leads_ns.push_back(rigs_[i].lead_ns);
-    if (leads_ns.size() < fewest) return std::nullopt;
+    if (leads_ns.size() < fewest_to_outvote) return std::nullopt;
     const auto middle = leads_ns.begin() + static_cast<std::ptrdiff_t>((leads_ns.size() - 1) / 2);
     std::nth_element(leads_ns.begin(), middle, leads_ns.end(), std::greater<>());
     // Leaves room to add a latency budget.

@@ -26,6 +26,10 @@ class StageStep {
         std::chrono::nanoseconds behind_limit;   ///< a rig further behind counts differently
     };
 
+    /// Rigs that must be active for most of them to outvote one: of two, neither outvotes the
+    /// other.
+    static constexpr std::size_t fewest_to_outvote = 3;
+
     enum class Verdict { in_step, out_of_step };
 
     struct Result {

@@ -62,7 +62,8 @@ struct ProbeTiles {
     ColourImage backdrop;  ///< the colours of the backdrop, one pixel a cell
 };
 
-/// Divides what `view` sees into tiles. `parallax_px_m` is as in probe_surface().
+/// Divides a surface, as `view` sees it, into tiles. `parallax_px_m` is the parallax that an
+/// inverse depth of 1/m has in the views that will be drawn from the probe, px m.
 ProbeTiles probe_tiles(const VirtualView& view, const ProbeSurface& surface, double parallax_px_m);
 
 /// One view of the background on the GPU, which other views are drawn from. Immutable.
@@ -81,7 +82,7 @@ class BackgroundProbe {
     };
 
     const VirtualView& view() const { return view_; }
-    /// Whose channels the visibility has.
+    /// The names of the rigs of the visibility's channels, in their order.
     const std::vector<std::string>& rigs() const { return rigs_; }
     const Buffer& vertices() const { return vertices_; }
     const Buffer& indices() const { return indices_; }

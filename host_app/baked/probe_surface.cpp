@@ -37,7 +37,7 @@ float smoothstep(float from, float to, float x) {
 
 float mean_of(const cv::Vec3f& v) { return (std::abs(v[0]) + std::abs(v[1]) + std::abs(v[2])) / 3; }
 
-/// What a rig sees of a point from which nothing hides it.
+/// A rig's view of a point that none of its own surfaces hides.
 struct Sight {
     float has = 0;    ///< 0..1, whether its own depth there is that of the point
     float clear = 0;  ///< 0..1, the share of its pixels there that show the point's surface

@@ -19,7 +19,8 @@ struct BackgroundPicture {
     DepthImage depth_m;  ///< 0 = unknown, negative = inpainted; of the same field of view
 };
 
-/// What a probe sees of the background.
+/// The background in the view of a probe: at each pixel one surface, its colour, and the rigs that
+/// see it.
 struct ProbeSurface {
     DepthImage depth_m;  ///< 0 = nothing, negative = inpainted
     ColourImage colour;  ///< alpha 0 where there is nothing

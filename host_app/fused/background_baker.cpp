@@ -32,8 +32,8 @@ BackgroundBaker::BackgroundBaker(const ShaderLibrary& library)
 
 void BackgroundBaker::forget() {
     drawing_.reset();
-    drawn_.reset();
-    chosen_.reset();
+    on_gpu_.reset();
+    on_thread_.reset();
     modelled_.clear();
     surfaces_.drop_free();
     placed_for_.clear();
@@ -172,8 +172,8 @@ bool BackgroundBaker::draw(std::span<RigHistory* const> rigs) {
 }
 
 void BackgroundBaker::draw_candidates() {
-    drawn_ = std::exchange(drawing_, std::nullopt);
-    const VirtualView& view = probes_[drawn_->probe].view;
+    on_gpu_ = std::exchange(drawing_, std::nullopt);
+    const VirtualView& view = probes_[on_gpu_->probe].view;
     candidates_m_.resize({view.width_px, view.height_px});
     candidates_pass_.use(layers_, false).overwrite(candidates_m_.target());
     candidates_drawn_ = Fence::insert();
@@ -189,12 +189,12 @@ std::shared_ptr<const BackgroundPicture> BackgroundBaker::picture_of(const std::
 }
 
 void BackgroundBaker::choose() {
-    chosen_ = std::exchange(drawn_, std::nullopt);
+    on_thread_ = std::exchange(on_gpu_, std::nullopt);
     std::vector<std::shared_ptr<const BackgroundPicture>> pictures;
-    for (const std::string& rig : chosen_->rigs) pictures.push_back(picture_of(rig));
+    for (const std::string& rig : on_thread_->rigs) pictures.push_back(picture_of(rig));
     tiles_ = std::async(
         std::launch::async,
-        [view = probes_[chosen_->probe].view, pictures = std::move(pictures),
+        [view = probes_[on_thread_->probe].view, pictures = std::move(pictures),
          candidates_m = cv::Mat4f(candidates_m_.texture().download()), parallax = parallax_px_m_] {
             name_this_thread("bg probe");
             const TraceSpan span("background probe");
@@ -203,15 +203,15 @@ void BackgroundBaker::choose() {
 }
 
 void BackgroundBaker::take_over(const ProbeTiles& tiles) {
-    Probe& probe = probes_[chosen_->probe];
+    Probe& probe = probes_[on_thread_->probe];
     const bool was_refined = probe.made && !probe.is_rough;
     probe.rest_s = was_refined
                        ? std::clamp(2 * probe.rest_s, first_probe_rest_s, longest_probe_rest_s)
                        : first_probe_rest_s;
     probe.made = std::make_shared<const BackgroundProbe>(tiles);
-    probe.made_s = chosen_->begun_s;
-    probe.is_rough = chosen_->is_rough;
-    probe.matches = chosen_->matches;
+    probe.made_s = on_thread_->begun_s;
+    probe.is_rough = on_thread_->is_rough;
+    probe.matches = on_thread_->matches;
     auto extra = std::make_shared<BakedExtra>();
     for (const Probe& one : probes_)
         if (one.made) extra->background.probes.push_back(one.made);
@@ -226,11 +226,11 @@ bool BackgroundBaker::step(std::span<RigHistory* const> rigs, const VirtualView&
         if (!waits && tiles_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             return false;
         const ProbeTiles tiles = tiles_.get();
-        if (chosen_) take_over(tiles);
-        chosen_.reset();
+        if (on_thread_) take_over(tiles);
+        on_thread_.reset();
         return true;
     }
-    if (drawn_) {
+    if (on_gpu_) {
         // The thread has instants to prepare while the GPU draws.
         if (!waits && !candidates_drawn_.reached()) return false;
         choose();

@@ -52,7 +52,7 @@ class BackgroundBaker {
         double made_s = 0;     ///< when its baking began, on the preparer's clock
         double rest_s = 0;     ///< time before it is baked again
         bool is_rough = true;  ///< not all models were refined by then
-        int matches = 0;       ///< of all models by then
+        int matches = 0;       ///< the sum of the models' RigHistory::Model::matches by then
     };
     struct ModelSurface {
         std::shared_ptr<const RigSurface> model, surface;
@@ -66,7 +66,7 @@ class BackgroundBaker {
         std::size_t drawn = 0;                                    ///< of the surfaces
         double begun_s = 0;
         bool is_rough = true;  ///< not all models are refined
-        int matches = 0;       ///< of all models
+        int matches = 0;       ///< the sum of the models' RigHistory::Model::matches
     };
 
     void place_probes(std::span<RigHistory* const> rigs);
@@ -81,9 +81,11 @@ class BackgroundBaker {
     void begin(std::span<RigHistory* const> rigs, const VirtualView& target, double now_s);
     /// Does the next step of drawing. Returns false if it was the last one.
     bool draw(std::span<RigHistory* const> rigs);
-    /// Begins to draw what the probe's pixels may show.
+    /// Has the GPU draw every rig's surface at each pixel of the probe (probe_surface()'s
+    /// candidates).
     void draw_candidates();
-    /// Reads that back, and on another thread chooses surfaces and divides them into tiles.
+    /// Reads the candidates back, and on another thread chooses surfaces and divides them into
+    /// tiles.
     void choose();
     void take_over(const ProbeTiles& tiles);
     /// Reads a rig's background back, once per model.
@@ -103,9 +105,10 @@ class BackgroundBaker {
     double parallax_px_m_ = 0;
     double changed_s_ = -1;
     std::optional<Drawing> drawing_;
-    std::optional<Drawing> drawn_;  ///< whose candidates the GPU draws
+    std::optional<Drawing> on_gpu_;  ///< the GPU draws its candidates
     Fence candidates_drawn_;
-    std::optional<Drawing> chosen_;  ///< whose tiles are awaited; empty: nobody wants them
+    /// The thread of tiles_ makes its tiles; empty: nobody wants them.
+    std::optional<Drawing> on_thread_;
     std::future<ProbeTiles> tiles_;
     std::shared_ptr<const BakedExtra> baked_;  ///< null until the first probe is made
 };

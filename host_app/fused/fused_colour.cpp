@@ -28,7 +28,7 @@ constexpr float inner_kind = 0.25f, empty_kind = 0.5f, edge_kind = 0.75f;
 
 const char* const fragment = "fused_colour.frag";
 
-/// The alphas of places that no rig sees now.
+/// Sets the alphas that mark places that no rig sees now.
 void set_alphas(Program& program) {
     program.set("remembered_confidence", RigSurface::remembered_confidence);
     program.set("remembered_alpha", remembered_alpha / 255.0f);

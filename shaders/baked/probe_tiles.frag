@@ -2,7 +2,7 @@
 // decide where it ends, interpolated, so that its edges are finer than the probe's pixels.
 uniform sampler2D colour;         // alpha is below one half where the place was never seen
 uniform sampler2D inverse_depth;  // 1/m, 0 = none
-uniform sampler2D visibility;     // how well each of the probe's rigs sees the surface
+uniform sampler2D visibility;     // how well each of the probe's rigs sees the surface; 0 for a guessed tile
 uniform mat4 layer_from_channel;  // which rigs are wanted, in which order
 uniform float colour_cell_px;     // the probe's pixels that one of `colour` spans
 uniform bool is_guessed;          // the tile lies behind all that was seen, and has no edges
@@ -27,7 +27,7 @@ void main() {
     }
     vec2 uv = (place_px + 0.5) / (colour_cell_px * vec2(textureSize(colour, 0)));
     vec4 c = textureLod(colour, uv, 0.0);
-    sees = is_guessed ? vec4(0.0) : layer_from_channel * textureLod(visibility, uv, 0.0);
+    sees = layer_from_channel * textureLod(visibility, uv, 0.0);
     float z = 1.0 / (gl_FragCoord.w * plane);
     shown = c;
     depth_m = c.a >= 0.5 ? z : -z;

@@ -1,5 +1,6 @@
-// What loss and distance do to a rig's stream over TCP and over SRT: how many frames come, how
-// late, and for how many bytes. Writes the table of docs/results/faults.md.
+// Measures a rig's stream over TCP and over SRT on links with loss and long round trips: the share
+// of frames that arrive, their latency, and the bytes on the link. Writes the table of
+// docs/results/faults.md.
 #include <array>
 #include <chrono>
 #include <cstring>

@@ -494,7 +494,7 @@ TEST_F(StagedPreparerTest, ForgetsARemovedRigOnceItIsNotShown) {
     for (int i = 0; i < 3; ++i) {
         preparer_.keep_only({"only"});
         EXPECT_EQ(prepared(views[0])->rigs.size(), 1u);
-        // Whatever is under way must not touch what was destroyed.
+        // Refinements that were begun before must not touch the rig that was destroyed.
         preparer_.improve(
             {staged_width_px, staged_height_px, views[0].K, views[0].world_from_camera});
     }
