@@ -126,7 +126,8 @@ void ScreenWindows::follow(std::span<const std::shared_ptr<ScreenFeed>> feeds) {
         return feed->state() != ScreenFeed::State::asked && !windows_.contains(feed.get());
     };
     if (std::all_of(feeds.begin(), feeds.end(), is_idle)) return;
-    GLFWwindow* before = has_glfw_ || glfw_ ? glfwGetCurrentContext() : nullptr;
+    // Without an operator's window the current context may be that of a window that closes here.
+    GLFWwindow* before = has_glfw_ ? glfwGetCurrentContext() : nullptr;
     for (const std::shared_ptr<ScreenFeed>& feed : feeds) {
         switch (feed->state()) {
             case ScreenFeed::State::asked:
@@ -142,7 +143,7 @@ void ScreenWindows::follow(std::span<const std::shared_ptr<ScreenFeed>> feeds) {
         }
     }
     if (!has_glfw_ && glfw_) glfwPollEvents();
-    if (before) glfwMakeContextCurrent(before);
+    if (has_glfw_) glfwMakeContextCurrent(before);
 }
 
 }  // namespace vantage

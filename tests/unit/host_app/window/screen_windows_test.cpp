@@ -80,6 +80,7 @@ TEST_F(ScreenWindowsTest, ReportsThatItsMonitorIsGoneAndOpensAgain) {
     windows.follow(feeds);
     EXPECT_EQ(feed_->state(), ScreenFeed::State::failed);
     EXPECT_TRUE(windows.monitors().empty());
+    EXPECT_EQ(glfwGetCurrentContext(), nullptr) << "the context of the closed window is gone";
     EXPECT_NE(feed_->failure().find("monitor 1 is gone"), std::string::npos) << feed_->failure();
     feed_->ask();
     windows.follow(feeds);
