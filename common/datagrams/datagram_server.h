@@ -3,10 +3,12 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/base/time/time.h"
@@ -27,6 +29,9 @@ class DatagramServer {
   public:
     static constexpr std::chrono::seconds stall_limit{2};
     static constexpr std::chrono::seconds retry_period{10};
+    /// While a frame is not acknowledged for this long, the road has no room: further frames wait
+    /// at the rig, where newer ones replace them, and not in SRT's buffer.
+    static constexpr std::chrono::milliseconds oldest_under_way{400};
 
     /// A host that may get frames, and its answer to the last offer.
     struct Peer {
@@ -72,6 +77,8 @@ class DatagramServer {
         std::uint64_t packets = 0;       ///< sent on this road
         std::uint64_t acknowledged = 0;  ///< of them
         std::uint32_t frames = 0;
+        /// Frames that are not acknowledged: their last packets and when they were sent.
+        std::deque<std::pair<std::uint64_t, MonotonicTime>> under_way;
         std::size_t room_bytes = 0;
         std::string trouble;
         std::optional<MonotonicTime> untold;  ///< when the trouble came that the log lacks
@@ -91,6 +98,7 @@ class DatagramServer {
 
     const std::string rig_;
     std::uint16_t port_ = 0;
+    MonotonicTime now_{};
     std::vector<int> listeners_;
     int arrivals_ = -1;                    ///< SRT's poll of the listeners
     std::map<std::uint64_t, Host> hosts_;  ///< by link

@@ -11,8 +11,8 @@ namespace {
 /// Frames that may wait to be decoded.
 constexpr double waiting_frames = 4;
 constexpr double highest_usual_rate_hz = 60;
-/// Until Linux repeats a packet, beyond the round trip.
-constexpr double repeat_s = 0.2;
+/// How long TCP stands still where a credit and its repetition get lost.
+constexpr double standstill_s = 1;
 
 }  // namespace
 
@@ -20,11 +20,10 @@ std::uint32_t credit_window(std::chrono::microseconds round_trip, double rate_hz
                             bool by_datagrams) {
     const double rate = rate_hz > 0 ? rate_hz : highest_usual_rate_hz;
     const double round_trip_s = std::chrono::duration<double>(round_trip).count();
-    // A repeated credit takes a second round trip, and so do a frame's repeated packets.
-    const double way_s = by_datagrams ? repeat_s + 3 * round_trip_s : round_trip_s;
+    const double way_s = round_trip_s + (by_datagrams ? standstill_s : 0);
     const double frames = waiting_frames + std::round(way_s * rate);
-    return static_cast<std::uint32_t>(
-        std::clamp<double>(frames, waiting_frames, max_credit_window));
+    return static_cast<std::uint32_t>(std::clamp<double>(
+        frames, waiting_frames, by_datagrams ? max_datagram_credit_window : max_credit_window));
 }
 
 }  // namespace vantage

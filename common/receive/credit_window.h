@@ -9,8 +9,8 @@ namespace vantage {
 /// as the rig sends until it hears that one was handled.
 ///
 /// `round_trip` is that of the connection over TCP, which carries the credit. On a road of
-/// datagrams frames do not stop while TCP repeats a lost credit, so the window covers that, too.
-/// `rate_hz` is the rig's; 0: unknown.
+/// datagrams frames do not stop while TCP repeats a lost credit, so the window covers a second of
+/// that, too. `rate_hz` is the rig's; 0: unknown.
 std::uint32_t credit_window(std::chrono::microseconds round_trip, double rate_hz,
                             bool by_datagrams);
 

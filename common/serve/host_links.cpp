@@ -125,8 +125,10 @@ void HostLinks::hear(const Route& route, const std::string& host_key, const Host
     link->streaming = message.streaming;
     link->raw_pairs = message.raw_pairs;
     link->rate_divisor = message.rate_divisor;
+    const std::uint32_t most = link->road.is_open ? max_datagram_credit_window : max_credit_window;
     if (message.link == link->id)
-        link->credit_limit = std::min(message.handled, link->counters.sent) + message.credit_window;
+        link->credit_limit =
+            std::min(message.handled, link->counters.sent) + std::min(message.credit_window, most);
     else
         link->heartbeat_due = true;
     hear_fetch(*link, message.fetch);

@@ -151,9 +151,9 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
     parse(part, "host message", in);
     check_schema_version("host message", in.schema_version());
     if (in.host_id() == 0) fail("a host message without host id came");
-    if (in.credit_window() < 1 || in.credit_window() > max_credit_window)
+    if (in.credit_window() < 1 || in.credit_window() > max_datagram_credit_window)
         fail("a credit window of {} frames is outside 1..{}", in.credit_window(),
-             max_credit_window);
+             max_datagram_credit_window);
     if (in.rate_divisor() < 1 || in.rate_divisor() > max_rate_divisor)
         fail("a rate divisor of {} is outside 1..{}", in.rate_divisor(), max_rate_divisor);
     if (in.first_pulse() > max_trigger_index)

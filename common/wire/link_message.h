@@ -53,7 +53,7 @@ struct HostMessage {
     std::uint64_t host_id = 0;        ///< random per receiver, not 0
     std::uint64_t link = 0;           ///< the link that `handled` refers to; 0: none yet
     std::uint64_t handled = 0;        ///< frames of that link that the host has finished with
-    std::uint32_t credit_window = 1;  ///< 1..max_credit_window frames beyond those
+    std::uint32_t credit_window = 1;  ///< 1..max_datagram_credit_window frames beyond those
     bool streaming = true;
     std::uint32_t rate_divisor = 1;  ///< 1..max_rate_divisor; asks for its multiples only
     std::uint64_t first_pulse = 0;   ///< of the take; 0: not announced yet

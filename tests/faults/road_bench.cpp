@@ -101,6 +101,8 @@ Result measure(const RoadTrouble& trouble, const Manner& manner, double seconds,
     const std::string port = rig->endpoint().substr(rig->endpoint().rfind(':') + 1);
     stage.rigs.push_back(
         {"far", fmt::format("tcp://{}:{}", ImpairedRoad::rig_address, port), rig->public_key()});
+    // As it is before they connect, since TCP and BBR remember the shortest round trip.
+    road.impair(trouble);
     StageReceiver host(stage);
     RigSync sync;
     sync.rate_hz = stage.rate_hz;
@@ -108,7 +110,6 @@ Result measure(const RoadTrouble& trouble, const Manner& manner, double seconds,
     const bool is_srt = manner.road == "srt";
     while (!host.status().rigs[0].connected || host.status().rigs[0].by_datagrams != is_srt)
         std::this_thread::sleep_for(10ms);
-    road.impair(trouble);
     Result result;
     const RigFrame filmed = make_frame(0, size.width, size.height);
     const std::uint64_t bytes_before = road.counts().bytes;

@@ -101,6 +101,7 @@ std::vector<DatagramServer::Road> DatagramServer::serve(const std::vector<Peer>&
         entry = stays ? std::next(entry) : hosts_.erase(entry);
     }
     accept_all(now);
+    now_ = now;
     std::vector<Road> roads;
     for (const Peer& peer : peers) {
         Host& host = hosts_[peer.link];
@@ -160,6 +161,7 @@ void DatagramServer::take_on(int socket, MonotonicTime now) {
     host.socket = socket;
     host.opened = host.moved = now;
     host.packets = host.acknowledged = 0;
+    host.under_way.clear();
     host.trouble.clear();
     host.untold.reset();
     {
@@ -181,9 +183,13 @@ void DatagramServer::watch(Host& host, MonotonicTime now) {
         host.packets - std::min<std::uint64_t>(waiting, host.packets);
     if (waiting == 0 || acknowledged != host.acknowledged) host.moved = now;
     host.acknowledged = acknowledged;
+    while (!host.under_way.empty() && host.under_way.front().first <= acknowledged)
+        host.under_way.pop_front();
+    const bool is_behind =
+        !host.under_way.empty() && now - host.under_way.front().second > oldest_under_way;
     // Only whole messages are sent, and their last packets may be short.
     const std::size_t room = srt_buffer_packets - std::min(waiting, srt_buffer_packets);
-    host.room_bytes = room * packet_bytes * 9 / 10;
+    host.room_bytes = is_behind ? 0 : room * packet_bytes * 9 / 10;
     if (now - host.moved > stall_limit)
         end(host,
             fmt::format("no datagram of {} bytes was acknowledged for {} s: check the firewalls "
@@ -215,15 +221,17 @@ bool DatagramServer::send(std::uint64_t link, const FrameParts& parts) {
     // Without an age at which SRT gives up: libsrt 1.5.1 then leaves holes in the receiver's
     // buffer that it never closes, until the buffer is full.
     constexpr int never = -1, in_order = 1;
-    return cut_message(join_parts(parts, host.offer.passphrase), host.frames++,
-                       [&](std::span<const std::byte> packet) {
-                           const bool is_sent =
-                               srt_sendmsg(
-                                   host.socket, reinterpret_cast<const char*>(packet.data()),
-                                   static_cast<int>(packet.size()), never, in_order) != SRT_ERROR;
-                           host.packets += is_sent;
-                           return is_sent;
-                       });
+    const bool is_sent_whole = cut_message(
+        join_parts(parts, host.offer.passphrase), host.frames++,
+        [&](std::span<const std::byte> packet) {
+            const bool is_sent =
+                srt_sendmsg(host.socket, reinterpret_cast<const char*>(packet.data()),
+                            static_cast<int>(packet.size()), never, in_order) != SRT_ERROR;
+            host.packets += is_sent;
+            return is_sent;
+        });
+    host.under_way.emplace_back(host.packets, now_);
+    return is_sent_whole;
 }
 
 }  // namespace vantage

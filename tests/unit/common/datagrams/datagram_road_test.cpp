@@ -121,6 +121,19 @@ TEST_F(DatagramRoad, EndsWhenTheHostLeaves) {
     EXPECT_FALSE(server_.send(link, {}));
 }
 
+TEST_F(DatagramRoad, HasNoRoomWhileAFrameIsNotAcknowledged) {
+    const DatagramLink host(loopback(), serve().offer, arrived_);
+    ASSERT_TRUE(opens(host)) << host.state().trouble;
+    ASSERT_TRUE(eventually([&] { return serve().room_bytes > 1000; }));
+    // It is sent now, and looked at later than an acknowledgement takes.
+    const MonotonicTime later =
+        MonotonicClock::now() + DatagramServer::oldest_under_way + std::chrono::milliseconds(100);
+    const std::vector<std::byte> colour(200'000);
+    ASSERT_TRUE(server_.send(link, FrameParts{{{}, {}, colour, {}}}));
+    EXPECT_EQ(server_.serve({{link, "the host", {}}}, later).at(0).room_bytes, 0u);
+    ASSERT_TRUE(eventually([&] { return serve().room_bytes > 1000; }));
+}
+
 TEST_F(DatagramRoad, AHostThatIsNoPeerLosesIt) {
     const DatagramLink host(loopback(), serve().offer, arrived_);
     ASSERT_TRUE(opens(host)) << host.state().trouble;

@@ -23,13 +23,13 @@ TEST(CreditWindow, CoversTheRoundTripAtTheRigsRate) {
 }
 
 TEST(CreditWindow, CoversARepeatedCreditWithDatagrams) {
-    EXPECT_EQ(credit_window(20ms, 25, true), 11u);
+    EXPECT_EQ(credit_window(20ms, 25, true), 30u);
     EXPECT_GT(credit_window(1ms, 25, true), credit_window(1ms, 25, false));
 }
 
 TEST(CreditWindow, IsNoMoreThanARigGrants) {
     EXPECT_EQ(credit_window(5s, 120, false), max_credit_window);
-    EXPECT_EQ(credit_window(100ms, 25, true), max_credit_window);
+    EXPECT_EQ(credit_window(100ms, 120, true), max_datagram_credit_window);
 }
 
 }  // namespace

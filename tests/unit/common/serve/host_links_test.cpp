@@ -454,6 +454,24 @@ TEST_F(HostRoadsTest, FramesWaitForRoomAndTheOldestIsDroppedAndCounted) {
     EXPECT_EQ(counters.send_dropped, 1u);
 }
 
+TEST_F(HostRoadsTest, AHostIsGrantedMoreWhileItsRoadIsOpen) {
+    HostLinks links("rig-a", 42, max_datagram_credit_window);
+    HostMessage message;
+    message.host_id = 5;
+    message.credit_window = max_datagram_credit_window;
+    links.hear("r1", "key", message, now_);
+    message.link = links.take().at(0).message.link;
+    links.hear("r1", "key", message, now_);
+    for (std::uint64_t k = 1; k <= max_datagram_credit_window; ++k) links.offer(frame_of(k));
+    EXPECT_EQ(links.take().size(), max_credit_window);
+    DatagramServer::Road road;
+    road.is_open = true;
+    road.room_bytes = 100 << 20;
+    links.set_roads(links.datagram_peers(), {road});
+    links.hear("r1", "key", message, now_);
+    EXPECT_EQ(links.take().size(), max_datagram_credit_window - max_credit_window);
+}
+
 TEST_F(HostRoadsTest, AFrameBeyondTheLimitGoesOverTcp) {
     attach("r1", 5, 9);
     open_road(1 << 20);

@@ -149,7 +149,7 @@ TEST(LinkMessage, HostileHostMessagesAreRefused) {
     EXPECT_THAT(refusal([](auto& m) { m.set_schema_version(99); }), HasSubstr("version 99"));
     EXPECT_THAT(refusal([](auto& m) { m.clear_host_id(); }), HasSubstr("host id"));
     EXPECT_THAT(refusal([](auto& m) { m.clear_credit_window(); }), HasSubstr("credit window"));
-    EXPECT_THAT(refusal([](auto& m) { m.set_credit_window(max_credit_window + 1); }),
+    EXPECT_THAT(refusal([](auto& m) { m.set_credit_window(max_datagram_credit_window + 1); }),
                 HasSubstr("credit window"));
     EXPECT_THAT(refusal([](auto& m) { m.clear_rate_divisor(); }), HasSubstr("rate divisor"));
     EXPECT_THAT(refusal([](auto& m) { m.set_rate_divisor(max_rate_divisor + 1); }),
