@@ -30,6 +30,8 @@ constexpr std::chrono::milliseconds longest_reconnect_wait{500};
 /// Limits a connection attempt: the kernel's own retries become rarer with time.
 constexpr std::chrono::milliseconds connect_limit{500};
 constexpr int send_high_water_mark = 8;
+/// Of a refused message, for bug reports: an offer's passphrase comes behind them.
+constexpr std::size_t noted_bytes = 32;
 constexpr std::size_t frame_parts = 3, kept_parts = 4;
 
 std::vector<std::byte> copy_of(std::span<const std::byte> bytes) {
@@ -160,7 +162,9 @@ std::optional<RigLink::Delivery> RigLink::receive(MonotonicTime now) {
             for (const zmq::message_t& part : parts) bytes.push_back(bytes_of(part));
             if (take_in(bytes, now, delivery)) return delivery;
         } catch (const Error& error) {
-            note_malformed("rig message", bytes_of(parts.front()), error.what());
+            const std::span<const std::byte> first = bytes_of(parts.front());
+            note_malformed("rig message", first.first(std::min(first.size(), noted_bytes)),
+                           error.what());
         }
     }
 }

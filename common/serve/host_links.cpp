@@ -278,8 +278,11 @@ std::vector<HostLinks::Outgoing> HostLinks::take() {
     refusals_.clear();
     for (Link& link : links_) {
         if (!link.attached) continue;
-        if (link.heartbeat_due && away_.empty())
-            all.push_back({link.route, message_to(link), nullptr});
+        if (link.heartbeat_due && away_.empty()) {
+            RigMessage message = message_to(link);
+            message.offer = link.road.offer;
+            all.push_back({link.route, std::move(message), nullptr});
+        }
         link.heartbeat_due = false;
         if (link.report) {
             RigMessage message = message_to(link);
@@ -298,10 +301,8 @@ std::vector<HostLinks::Outgoing> HostLinks::take() {
                 ++link.sent_by_datagrams;
                 link.road.room_bytes -= room_for(*frame);
             }
-            RigMessage message = message_to(link);
-            message.offer.passphrase.clear();
             all.push_back(
-                {link.route, std::move(message), std::move(frame), nullptr, nullptr, by_datagrams});
+                {link.route, message_to(link), std::move(frame), nullptr, nullptr, by_datagrams});
         }
         while (link.fetch && !link.fetch->ready.empty()) {
             std::shared_ptr<const KeptParts> kept = std::move(link.fetch->ready.front());
@@ -402,7 +403,7 @@ RigMessage HostLinks::message_to(const Link& link) const {
     message.sync = sync_;
     message.health = health_;
     message.health.refused_connections += refused_connections_;
-    message.offer = link.road.offer;
+    message.offer = {link.road.offer.id, link.road.offer.port, ""};
     message.sent_by_datagrams = link.sent_by_datagrams;
     message.datagram_trouble = link.road.trouble;
     if (link.fetch)

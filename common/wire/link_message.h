@@ -35,7 +35,7 @@ struct FetchState {
 struct DatagramOffer {
     std::uint64_t id = 0;    ///< random; 0: none at present
     std::uint16_t port = 0;  ///< UDP, at the address of the TCP connection
-    std::string passphrase;  ///< empty beside a frame
+    std::string passphrase;  ///< in heartbeats only; else empty
 
     bool operator==(const DatagramOffer&) const = default;
 };

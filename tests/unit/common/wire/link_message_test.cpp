@@ -111,6 +111,19 @@ TEST(LinkMessage, AnOfferOfDatagramsAndItsAnswerRoundTrip) {
     EXPECT_EQ(decode_host_message(encode(answer)), answer);
 }
 
+TEST(LinkMessage, APassphraseIsNotAmongTheFirstBytesThatABugReportMayKeep) {
+    RigMessage sent;
+    sent.rig = "r";
+    sent.link = 1;
+    sent.health.program_version = "0.3.0";
+    sent.health.captured_hz = 25;
+    sent.offer = {31, 5600, "a passphrase of this test"};
+    const std::vector<std::byte> bytes = encode(sent);
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    EXPECT_GE(text.find(sent.offer.passphrase), 32u);
+    EXPECT_LT(text.find(sent.offer.passphrase), text.size());
+}
+
 TEST(LinkMessage, AMessageOfAnOlderEndHasNeitherOfferNorAnswer) {
     wire::RigMessage rig;
     rig.set_schema_version(wire_schema_version);
