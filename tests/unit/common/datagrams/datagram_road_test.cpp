@@ -73,16 +73,18 @@ TEST_F(DatagramRoad, CarriesMessagesInOrder) {
 }
 
 TEST_F(DatagramRoad, OpensToTheOffersPassphraseOnly) {
-    DatagramOffer offer = serve().offer;
+    const DatagramOffer offer = serve().offer;
     EXPECT_GE(offer.passphrase.size(), 32u);
-    DatagramOffer wrong = offer;
-    wrong.passphrase.back() = wrong.passphrase.back() == '0' ? '1' : '0';
-    {
-        const DatagramLink stranger(loopback(), wrong, arrived_);
+    std::string wrong = offer.passphrase;
+    wrong.back() = wrong.back() == '0' ? '1' : '0';
+    for (const std::string& passphrase : {wrong, std::string()}) {
+        DatagramOffer stolen = offer;
+        stolen.passphrase = passphrase;
+        const DatagramLink stranger(loopback(), stolen, arrived_);
         ASSERT_TRUE(eventually([&] {
             EXPECT_FALSE(serve().is_open);
             return !stranger.state().trouble.empty();
-        }));
+        })) << passphrase;
         EXPECT_FALSE(stranger.state().is_open);
         EXPECT_THAT(stranger.state().trouble, HasSubstr("cannot connect"));
     }
