@@ -38,6 +38,15 @@ std::vector<std::byte> copy_of(std::span<const std::byte> bytes) {
     return {bytes.begin(), bytes.end()};
 }
 
+/// The frame in the parts behind a RigMessage.
+std::shared_ptr<const PackedFrame> frame_of(const std::vector<std::span<const std::byte>>& parts) {
+    auto frame = std::make_shared<PackedFrame>();
+    frame->header = copy_of(parts[1]);
+    frame->colour = copy_of(parts[2]);
+    frame->disparity = copy_of(parts[3]);
+    return frame;
+}
+
 /// The other end of a socket of ZeroMQ's; empty if it has closed it meanwhile.
 std::optional<SocketAddress> peer_of(int socket) {
     SocketAddress address;
@@ -206,11 +215,7 @@ bool RigLink::take_in_datagrams(const Parts& parts, MonotonicTime now, Delivery&
     show_account();
     delivery.arrival = now;
     delivery.arrival_tai = TaiClock::now();
-    auto frame = std::make_shared<PackedFrame>();
-    frame->header = copy_of(parts[1]);
-    frame->colour = copy_of(parts[2]);
-    frame->disparity = copy_of(parts[3]);
-    delivery.frame = std::move(frame);
+    delivery.frame = frame_of(parts);
     return true;
 }
 
@@ -274,11 +279,7 @@ bool RigLink::take_in(const Parts& parts, MonotonicTime now, Delivery& delivery)
         delivery.kept = std::move(kept);
         return true;
     }
-    auto frame = std::make_shared<PackedFrame>();
-    frame->header = copy_of(parts[1]);
-    frame->colour = copy_of(parts[2]);
-    frame->disparity = copy_of(parts[3]);
-    delivery.frame = std::move(frame);
+    delivery.frame = frame_of(parts);
     return true;
 }
 

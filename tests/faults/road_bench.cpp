@@ -15,11 +15,11 @@
 
 #include "common/base/error.h"
 #include "common/receive/stage_receiver.h"
-#include "common/wire/curve_keys.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/bench/support/markdown_tables.h"
 #include "tests/faults/impaired_road.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/keyed_stream.h"
 #include "tests/support/wire_frames.h"
 
 namespace vantage {
@@ -82,15 +82,9 @@ Result measure(const RoadTrouble& trouble, const Manner& manner, double seconds,
     use_congestion_control(manner.control);
     road.at_the_rigs([&] { use_congestion_control(manner.control); });
     const TemporaryFolder folder;
-    const CurveKeys host_keys = generate_curve_keys();
-    write_key_file(folder.path() / "host.key", host_keys);
-    write_key_file(folder.path() / "rig.key", generate_curve_keys());
-    std::ofstream(folder.path() / "hosts.keys") << host_keys.public_key << " the host\n";
-    RigConfig::Stream stream;
+    RigConfig::Stream stream = keyed_stream(folder.path());
     stream.bind = "tcp://*:*";
     stream.road = manner.road;
-    stream.key_file = folder.path() / "rig.key";
-    stream.authorized_hosts = folder.path() / "hosts.keys";
     std::unique_ptr<Publisher> rig;
     road.at_the_rigs([&] { rig = std::make_unique<Publisher>(stream, "far"); });
     StageConfig stage;

@@ -1,6 +1,5 @@
 // Both ends of the road of datagrams, and rig and host with it, over real sockets.
 #include <cstring>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -16,11 +15,11 @@
 #include "common/datagrams/datagram_link.h"
 #include "common/datagrams/datagram_server.h"
 #include "common/receive/stage_receiver.h"
-#include "common/wire/curve_keys.h"
 #include "common/wire/zmq_helpers.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/eventually.h"
+#include "tests/support/keyed_stream.h"
 #include "tests/support/thrown_sentence.h"
 #include "tests/support/wire_frames.h"
 
@@ -155,16 +154,10 @@ TEST_F(DatagramRoad, APortInUseIsNamed) {
 class SrtLink : public testing::Test {
   protected:
     RigConfig::Stream stream(const std::string& road) {
-        RigConfig::Stream stream;
+        RigConfig::Stream stream = keyed_stream(folder_.path());
         stream.bind = "tcp://127.0.0.1:*";
         stream.jpeg_quality = 0;
         stream.road = road;
-        const CurveKeys host = generate_curve_keys();
-        write_key_file(folder_.path() / "host.key", host);
-        stream.key_file = folder_.path() / "rig.key";
-        write_key_file(stream.key_file, generate_curve_keys());
-        stream.authorized_hosts = folder_.path() / "authorized_hosts";
-        std::ofstream(stream.authorized_hosts) << host.public_key << " a host\n";
         return stream;
     }
     StageConfig stage_of(const Publisher& rig) const {
