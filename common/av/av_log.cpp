@@ -30,12 +30,6 @@ void keep(void* source, int level, const char* format, va_list words) {
     remark = std::move(text);
 }
 
-/// Receives the messages of libsrt on its threads. Refused callers cause four every 10 ms.
-void keep_srt_message(void*, int, const char*, int, const char*, const char* message) {
-    static LibraryLog log("libsrt", LogLevel::warning);
-    log.note(message ? message : "");
-}
-
 /// FFmpeg loads libsrt and has no function for its log, so the functions are looked up by name.
 void keep_srt_log() {
     using Handler = void(void*, int, const char*, int, const char*, const char*);

@@ -1,6 +1,7 @@
 #include "common/base/library_log.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace vantage {
 namespace {
@@ -50,6 +51,14 @@ std::vector<std::pair<std::string, std::uint64_t>> LibraryLog::counts() {
     LibraryCounts& counts = library_counts();
     const std::lock_guard lock(counts.mutex);
     return counts.all;
+}
+
+void keep_srt_message(void*, int, const char*, int, const char* area, const char* message) {
+    static LibraryLog correction("libsrt's error correction", LogLevel::debug);
+    static LibraryLog log("libsrt", LogLevel::warning);
+    // The packet filter, as libsrt calls it.
+    const bool is_correction = std::string_view(area ? area : "").ends_with("pf");
+    (is_correction ? correction : log).note(message ? message : "");
 }
 
 }  // namespace vantage

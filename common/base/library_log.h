@@ -33,4 +33,9 @@ class LibraryLog {
     LogLimiter limiter_{std::chrono::seconds(10)};
 };
 
+/// Writes libsrt's messages to our log, for srt_setloghandler(). Its threads call it, for a refused
+/// caller four times in 10 ms. What its error correction says of lost packets is only counted.
+void keep_srt_message(void* unused, int level, const char* file, int line, const char* area,
+                      const char* message);
+
 }  // namespace vantage

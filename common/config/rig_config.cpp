@@ -134,6 +134,7 @@ void read_match(TomlTable& table, RigConfig::Match& match) {
 void read_stream(TomlTable& table, RigConfig::Stream& stream) {
     table.read("bind", stream.bind);
     check_endpoint(table, "bind", stream.bind);
+    table.read_choice("road", stream.road, {"tcp", "srt"});
     table.read("jpeg_quality", stream.jpeg_quality, {0, 100});
     table.read_choice("chroma", stream.chroma, {"4:4:4", "4:2:2", "4:2:0"});
     table.read("queue_frames", stream.queue_frames, {1, 64});

@@ -86,6 +86,7 @@ struct RigConfig {
 
     struct Stream {
         std::string bind = "tcp://127.0.0.1:5600";
+        std::string road = "tcp";      ///< of frames: tcp | srt, with tcp where srt does not work
         int jpeg_quality = 82;         ///< 1..100; 0: lossless colour
         std::string chroma = "4:2:0";  ///< of JPEG: 4:4:4 | 4:2:2 | 4:2:0
         int queue_frames = 4;  ///< frames that may wait for one host before the oldest is dropped

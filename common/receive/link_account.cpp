@@ -27,19 +27,48 @@ RigCounters difference(const RigCounters& a, const RigCounters& b) {
 }  // namespace
 
 std::uint64_t LinkAccount::hear(const RigMessage& message, bool with_frame) {
-    const std::uint64_t known_before = message.link == link_ ? known_ : 0;
-    const std::uint64_t expected = known_before + (with_frame ? 1 : 0);
-    const std::uint64_t sent = message.counters.sent;
+    const bool is_new_link = message.link != link_;
+    const std::uint64_t expected = (is_new_link ? 0 : by_tcp_) + (with_frame ? 1 : 0);
+    const std::uint64_t sent = message.counters.sent - message.sent_by_datagrams;
     if (sent < expected)
         fail("rig {} counts {} frames sent where {} came already", message.rig, sent, expected);
+    std::uint64_t lost = sent - expected;
+    if (is_new_link) {
+        lost += sent_by_datagrams_ - std::min(sent_by_datagrams_, by_datagrams_);
+        by_datagrams_ = 0;
+    }
+    if (is_new_link || message.offer.id != offer_) {
+        lost += message.sent_by_datagrams - std::min(message.sent_by_datagrams, by_datagrams_);
+        by_datagrams_ = message.sent_by_datagrams;
+    }
     take_counts(message);
+    sent_by_datagrams_ = message.sent_by_datagrams;
     link_ = message.link;
-    known_ = sent;
-    lost_ += sent - expected;
-    return sent - expected;
+    offer_ = message.offer.id;
+    by_tcp_ = sent;
+    lost_ += lost;
+    return lost;
+}
+
+std::uint64_t LinkAccount::hear_datagrams(const RigMessage& message) {
+    if (message.link != link_ || message.offer.id != offer_)
+        fail("rig {} sent a frame by datagrams of an earlier connection", message.rig);
+    const std::uint64_t expected = by_datagrams_ + 1;
+    if (message.sent_by_datagrams < expected)
+        fail("rig {} counts {} frames sent by datagrams where {} came already", message.rig,
+             message.sent_by_datagrams, expected);
+    const std::uint64_t lost = message.sent_by_datagrams - expected;
+    take_counts(message);
+    by_datagrams_ = message.sent_by_datagrams;
+    sent_by_datagrams_ = std::max(sent_by_datagrams_, by_datagrams_);
+    lost_ += lost;
+    return lost;
 }
 
 void LinkAccount::take_counts(const RigMessage& message) {
+    // One road overtakes the other.
+    const auto ended = [](const LinkCounters& c) { return c.sent + c.send_dropped + c.skipped; };
+    if (message.link == link_ && ended(message.counters) < ended(this_link_)) return;
     if (message.link != link_) ended_links_ = sum(ended_links_, std::exchange(this_link_, {}));
     this_link_ = message.counters;
     if (!session_) {

@@ -1,15 +1,21 @@
 #include "common/receive/rig_link.h"
 
+#include <algorithm>
 #include <cstring>
 #include <iterator>
 #include <utility>
 #include <vector>
 #include <zmq_addon.hpp>
 
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/socket.h>
+
 #include "common/base/error.h"
 #include "common/base/refused_inputs.h"
 #include "common/base/time/kernel_clock.h"
 #include "common/config/endpoint.h"
+#include "common/receive/credit_window.h"
 #include "common/wire/limits.h"
 #include "common/wire/random_id.h"
 #include "common/wire/zmq_helpers.h"
@@ -24,11 +30,39 @@ constexpr std::chrono::milliseconds longest_reconnect_wait{500};
 /// Limits a connection attempt: the kernel's own retries become rarer with time.
 constexpr std::chrono::milliseconds connect_limit{500};
 constexpr int send_high_water_mark = 8;
+/// Of a refused message, for bug reports: an offer's passphrase comes behind them.
+constexpr std::size_t noted_bytes = 32;
 constexpr std::size_t frame_parts = 3, kept_parts = 4;
 
-std::vector<std::byte> copy_of(const zmq::message_t& part) {
-    const std::span<const std::byte> bytes = bytes_of(part);
+std::vector<std::byte> copy_of(std::span<const std::byte> bytes) {
     return {bytes.begin(), bytes.end()};
+}
+
+/// The frame in the parts behind a RigMessage.
+std::shared_ptr<const PackedFrame> frame_of(const std::vector<std::span<const std::byte>>& parts) {
+    auto frame = std::make_shared<PackedFrame>();
+    frame->header = copy_of(parts[1]);
+    frame->colour = copy_of(parts[2]);
+    frame->disparity = copy_of(parts[3]);
+    return frame;
+}
+
+/// The other end of a socket of ZeroMQ's; empty if it has closed it meanwhile.
+std::optional<SocketAddress> peer_of(int socket) {
+    SocketAddress address;
+    address.size = sizeof address.bytes;
+    auto* const bytes = reinterpret_cast<sockaddr*>(&address.bytes);
+    if (::getpeername(socket, bytes, &address.size) != 0) return std::nullopt;
+    if (address.family() != AF_INET && address.family() != AF_INET6) return std::nullopt;
+    return address;
+}
+
+/// Measured by the kernel; 0: unknown.
+std::chrono::microseconds round_trip_of(int socket) {
+    tcp_info info{};
+    socklen_t size = sizeof info;
+    if (::getsockopt(socket, IPPROTO_TCP, TCP_INFO, &info, &size) != 0) return {};
+    return std::chrono::microseconds(info.tcpi_rtt);
 }
 
 }  // namespace
@@ -116,33 +150,89 @@ void RigLink::use_address(const std::string& address) {
 }
 
 void RigLink::close() {
+    datagrams_.reset();
+    peer_.reset();
+    peer_socket_ = -1;
     if (socket_) zmq_socket_monitor(socket_.handle(), nullptr, 0);
     monitor_.close();
     socket_.close();
 }
 
 std::optional<RigLink::Delivery> RigLink::receive(MonotonicTime now) {
+    // First, so that no frame which has come counts as lost with the end of its road.
+    if (std::optional<Delivery> delivery = receive_datagrams(now)) return delivery;
     while (true) {
         std::vector<zmq::message_t> parts;
         if (!zmq::recv_multipart(socket_, std::back_inserter(parts), zmq::recv_flags::dontwait))
             return std::nullopt;
         try {
             Delivery delivery;
-            if (take_in(parts, now, delivery)) return delivery;
+            Parts bytes;
+            for (const zmq::message_t& part : parts) bytes.push_back(bytes_of(part));
+            if (take_in(bytes, now, delivery)) return delivery;
         } catch (const Error& error) {
-            ++view_.malformed;
-            view_.last_error = error.what();
-            note_refused_input("rig message", bytes_of(parts.front()), error.what());
+            const std::span<const std::byte> first = bytes_of(parts.front());
+            note_malformed("rig message", first.first(std::min(first.size(), noted_bytes)),
+                           error.what());
         }
     }
 }
 
-bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Delivery& delivery) {
+void RigLink::note_malformed(const char* what, std::span<const std::byte> bytes,
+                             const std::string& reason) {
+    ++view_.malformed;
+    view_.last_error = reason;
+    note_refused_input(what, bytes, reason);
+}
+
+std::optional<RigLink::Delivery> RigLink::receive_datagrams(MonotonicTime now) {
+    arrived_.clear();
+    if (!datagrams_) return std::nullopt;
+    while (const auto message = datagrams_->next()) {
+        try {
+            const FrameParts parts = split_message(*message, datagrams_->offer().passphrase);
+            Delivery delivery;
+            if (take_in_datagrams({parts.begin(), parts.end()}, now, delivery)) return delivery;
+        } catch (const Error& error) {
+            note_malformed("frame by datagrams", *message, error.what());
+        }
+    }
+    const DatagramLink::State state = datagrams_->state();
+    if (const std::uint64_t damaged =
+            state.damaged - std::exchange(damaged_datagrams_, state.damaged)) {
+        view_.malformed += damaged;
+        view_.last_error = state.last_fault;
+    }
+    return std::nullopt;
+}
+
+bool RigLink::take_in_datagrams(const Parts& parts, MonotonicTime now, Delivery& delivery) {
+    delivery.message = decode_rig_message(parts[0]);
+    if (delivery.message.rig != rig_.name || !delivery.message.refusal.empty())
+        fail("rig {} sent a frame by datagrams as rig {}", rig_.name, delivery.message.rig);
+    account_.hear_datagrams(delivery.message);
+    view_.heard = now;
+    show_account();
+    delivery.arrival = now;
+    delivery.arrival_tai = TaiClock::now();
+    delivery.frame = frame_of(parts);
+    return true;
+}
+
+void RigLink::follow_offer(const DatagramOffer& offer) {
+    if (datagrams_ && datagrams_->offer().id != offer.id) datagrams_.reset();
+    // Only a message without a frame has the passphrase.
+    if (datagrams_ || offer.id == 0 || offer.passphrase.empty() || !peer_) return;
+    damaged_datagrams_ = 0;
+    datagrams_ = std::make_unique<DatagramLink>(*peer_, offer, arrived_);
+}
+
+bool RigLink::take_in(const Parts& parts, MonotonicTime now, Delivery& delivery) {
     const bool is_kept = parts.size() == 1 + kept_parts;
     const bool is_report = parts.size() == 2;
     if (parts.size() != 1 && parts.size() != 1 + frame_parts && !is_kept && !is_report)
         fail("rig {} sent a message of {} parts", rig_.name, parts.size());
-    RigMessage message = decode_rig_message(bytes_of(parts.front()));
+    RigMessage message = decode_rig_message(parts.front());
     if (message.refusal.empty() && message.rig != rig_.name)
         message.refusal = fmt::format(
             "the rig at {} calls itself {}, but the stage calls it {}; make name and endpoint "
@@ -171,7 +261,11 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
     view_.sync = message.sync;
     view_.health = message.health;
     view_.fetch = message.fetch;
-    if (is_report) view_.report = std::make_shared<const std::string>(parts[1].to_string());
+    rigs_trouble_ = message.datagram_trouble;
+    follow_offer(message.offer);
+    if (is_report)
+        view_.report = std::make_shared<const std::string>(
+            reinterpret_cast<const char*>(parts[1].data()), parts[1].size());
     if (parts.size() <= 2) return false;
     delivery.message = std::move(message);
     delivery.arrival = now;
@@ -185,11 +279,7 @@ bool RigLink::take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Del
         delivery.kept = std::move(kept);
         return true;
     }
-    auto frame = std::make_shared<PackedFrame>();
-    frame->header = copy_of(parts[1]);
-    frame->colour = copy_of(parts[2]);
-    frame->disparity = copy_of(parts[3]);
-    delivery.frame = std::move(frame);
+    delivery.frame = frame_of(parts);
     return true;
 }
 
@@ -204,8 +294,14 @@ void RigLink::watch(MonotonicTime now) {
         std::memcpy(&event, parts.front().data<std::byte>(), sizeof event);
         std::memcpy(&value, parts.front().data<std::byte>() + sizeof event, sizeof value);
         switch (event) {
+            case ZMQ_EVENT_CONNECTED:
+                peer_socket_ = static_cast<int>(value);
+                peer_ = peer_of(peer_socket_);
+                round_trip_ = {};
+                break;
             case ZMQ_EVENT_DISCONNECTED:
                 gone_ = true;
+                peer_socket_ = -1;
                 if (std::exchange(view_.refusal_passes, false)) view_.refused.clear();
                 view_.last_error = fmt::format("the connection to {} broke", rig_.endpoint);
                 break;
@@ -251,17 +347,24 @@ void RigLink::tick(const Request& request, MonotonicTime now) {
         close();
         open();
     }
+    if (now >= next_heartbeat_ && peer_socket_ >= 0)
+        if (const auto newest = round_trip_of(peer_socket_); newest > newest.zero())
+            round_trip_ = round_trip_ > newest.zero() ? std::min(round_trip_, newest) : newest;
+    const double rate_hz =
+        std::max<double>(view_.sync.rate_hz, static_cast<double>(view_.health.published_hz));
     HostMessage message;
     message.host_id = host_id_;
     message.link = account_.link();
     message.handled = account_.handled(request.unhandled);
-    message.credit_window = credit_window;
+    const bool by_datagrams = datagrams_ && datagrams_->state().is_open;
+    message.credit_window = credit_window(round_trip_, rate_hz, by_datagrams);
     message.streaming = request.streaming;
     message.rate_divisor = request.rate_divisor;
     message.first_pulse = request.first_pulse;
     message.raw_pairs = request.raw_pairs;
     message.fetch = request.fetch;
     message.report_id = request.report_id;
+    if (datagrams_) message.datagrams = {datagrams_->offer().id, datagrams_->state().trouble};
     if (now >= next_heartbeat_) own_tai_offset_s_ = read_kernel_clock().tai_offset_s;
     message.tai_offset_s = own_tai_offset_s_;
     if (now < next_heartbeat_ && message == told_) return;
@@ -273,6 +376,12 @@ void RigLink::tick(const Request& request, MonotonicTime now) {
 
 RigLink::View RigLink::view(MonotonicTime now) const {
     View view = view_;
+    if (datagrams_) {
+        const DatagramLink::State state = datagrams_->state();
+        view.by_datagrams = state.is_open;
+        view.datagram_trouble = state.trouble;
+    }
+    if (view.datagram_trouble.empty() && !view.by_datagrams) view.datagram_trouble = rigs_trouble_;
     view.connected = view_.heard && !gone_ && now - *view_.heard <= liveness_limit;
     return view;
 }

@@ -1,24 +1,32 @@
 #pragma once
 
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 #include <zmq.hpp>
 
 #include "common/base/time/time.h"
+#include "common/config/socket_address.h"
 #include "common/config/stage_config.h"
+#include "common/datagrams/datagram_link.h"
 #include "common/receive/link_account.h"
 #include "common/wire/curve_keys.h"
 #include "common/wire/frame_codec.h"
 #include "common/wire/kept_parts.h"
 #include "common/wire/link_message.h"
+#include "common/wire/wake_event.h"
 
 namespace vantage {
 
 /// The connection to one rig: connects, reconnects after a refusal, sends the host's request and
-/// credit to the rig, and receives its messages. Used by one thread, which polls socket() and
-/// monitor().
+/// credit to the rig, and receives its messages. If the rig offers a road of datagrams, frames
+/// come by it while it works. Used by one thread, which polls socket(), monitor() and
+/// datagrams_fd().
 class RigLink {
   public:
     /// A frame that is not decoded yet: a live one, or one that this host fetches.
@@ -59,10 +67,9 @@ class RigLink {
         RigHealth health;
         std::optional<FetchState> fetch;
         std::shared_ptr<const std::string> report;  ///< the last one; null: none
+        bool by_datagrams = false;                  ///< whether its road of datagrams is open
+        std::string datagram_trouble;               ///< why an offered one is not; empty: none
     };
-
-    /// Frames that may be on the way or waiting to be decoded.
-    static constexpr std::uint32_t credit_window = 4;
 
     /// Throws Error if the endpoint or a key is invalid.
     RigLink(zmq::context_t& context, const StageConfig::Rig& rig,
@@ -82,6 +89,8 @@ class RigLink {
 
     zmq::socket_t& socket() { return socket_; }
     zmq::socket_t& monitor() { return monitor_; }
+    /// Readable when a frame or a change of the road of datagrams waits.
+    int datagrams_fd() const { return arrived_.fd(); }
 
     /// Processes messages up to the next frame; empty when no more are waiting.
     std::optional<Delivery> receive(MonotonicTime now);
@@ -104,7 +113,14 @@ class RigLink {
     void close();
     void refuse(std::string sentence, MonotonicTime now);
     void show_account();
-    bool take_in(std::vector<zmq::message_t>& parts, MonotonicTime now, Delivery& delivery);
+    using Parts = std::vector<std::span<const std::byte>>;
+    bool take_in(const Parts& parts, MonotonicTime now, Delivery& delivery);
+    bool take_in_datagrams(const Parts& parts, MonotonicTime now, Delivery& delivery);
+    std::optional<Delivery> receive_datagrams(MonotonicTime now);
+    /// Ends the road of datagrams of a former offer, and tries a new one once.
+    void follow_offer(const DatagramOffer& offer);
+    void note_malformed(const char* what, std::span<const std::byte> bytes,
+                        const std::string& reason);
 
     zmq::context_t& context_;
     StageConfig::Rig rig_;
@@ -113,6 +129,15 @@ class RigLink {
     std::uint64_t host_id_;
     zmq::socket_t socket_;
     zmq::socket_t monitor_;
+
+    std::optional<SocketAddress> peer_;        ///< of the connection over TCP
+    int peer_socket_ = -1;                     ///< ZeroMQ's; below 0: not connected
+    std::chrono::microseconds round_trip_{0};  ///< the shortest of this connection
+
+    WakeEvent arrived_;
+    std::unique_ptr<DatagramLink> datagrams_;  ///< of the last offer; null: none
+    std::uint64_t damaged_datagrams_ = 0;      ///< already counted
+    std::string rigs_trouble_;                 ///< with the road, as the rig says
 
     LinkAccount account_;
     View view_;

@@ -59,6 +59,8 @@ struct RigStatus {
     Percentiles network_ms;  ///< from published by the rig to received here, by the stage's clock
     Percentiles decode_ms;   ///< per message
     std::string last_error;
+    bool by_datagrams = false;     ///< whether its frames come over SRT; if not, over TCP
+    std::string datagram_trouble;  ///< why they do not although the rig offers it; empty: none
 };
 
 struct ReceiverStatus {

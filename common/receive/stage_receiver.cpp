@@ -48,7 +48,7 @@ constexpr std::size_t rigs_a_network_thread = 8;
 
 /// Open files that a host needs: for each rig the sockets of ZeroMQ and their monitors, and for
 /// everything else.
-constexpr std::size_t descriptors_a_rig = 8, descriptors_of_a_host = 48;
+constexpr std::size_t descriptors_a_rig = 12, descriptors_of_a_host = 48;
 
 /// Checks the limit of open files before ZeroMQ starts, which aborts if it cannot open its own.
 void require_descriptors_for(const StageConfig& stage) {
@@ -144,6 +144,7 @@ struct StageReceiver::Impl {
         RigLink::Request request;
         std::shared_ptr<const std::string> report;
         std::optional<MonotonicTime> ready_since;
+        std::optional<MonotonicTime> datagram_trouble_since;  ///< not logged yet
         OutageCounter outages;
         LogLimiter complaints{complaint_period};
         StateLines state_lines;
@@ -243,7 +244,7 @@ struct StageReceiver::Impl {
         rig.request.raw_pairs = purpose == Purpose::calibrate;
         rig.is_decoded = true;
         if (rig.decoder.valid()) ended_decoders.push_back(std::move(rig.decoder));
-        rig.inbox = std::make_shared<BoundedQueue<RigLink::Delivery>>(RigLink::credit_window);
+        rig.inbox = std::make_shared<BoundedQueue<RigLink::Delivery>>(max_credit_window);
         rig.decoder = std::async(std::launch::async, [this, number, &rig, inbox = rig.inbox] {
             decode_all(number, rig, *inbox);
         });
@@ -314,6 +315,7 @@ struct StageReceiver::Impl {
             if (!rig->link) continue;
             items.push_back({rig->link->socket().handle(), 0, ZMQ_POLLIN, 0});
             items.push_back({rig->link->monitor().handle(), 0, ZMQ_POLLIN, 0});
+            items.push_back({nullptr, rig->link->datagrams_fd(), ZMQ_POLLIN, 0});
         }
         wait_for(items, next_wait());
         wake.clear();
@@ -629,6 +631,23 @@ struct StageReceiver::Impl {
                        fmt::format("rig {}: {}; until then latencies are unknown and its frames "
                                    "may miss their frame sets",
                                    rig.name, tai));
+        if (warns && view.connected && view.by_datagrams && !status.by_datagrams)
+            tell_state(rig, false, fmt::format("rig {}: its frames come over SRT", rig.name));
+        if (view.datagram_trouble.empty() || !view.connected)
+            rig.datagram_trouble_since.reset();
+        else if (status.datagram_trouble.empty())
+            rig.datagram_trouble_since = now;
+        // The road of a rig that ends does so just before the rig is gone.
+        if (warns && rig.datagram_trouble_since &&
+            now - *rig.datagram_trouble_since > liveness_limit) {
+            rig.datagram_trouble_since.reset();
+            tell_state(rig, true,
+                       fmt::format("rig {}: its frames come over TCP because {}; the rig offers "
+                                   "SRT again",
+                                   rig.name, view.datagram_trouble));
+        }
+        status.by_datagrams = view.by_datagrams;
+        status.datagram_trouble = std::move(view.datagram_trouble);
         if (!view.last_error.empty()) status.last_error = std::move(view.last_error);
         if (const std::string rate = rate_warning(status);
             warns && rate != rate_before && !rate.empty())

@@ -31,6 +31,8 @@ constexpr int send_high_water_mark = 4 * static_cast<int>(max_credit_window);
 constexpr int receive_high_water_mark = 64;
 /// Bounds the messages received at a time, so that a host that floods does not stop frames.
 constexpr int messages_per_turn = 64;
+/// How often the thread looks whether a road of datagrams has room for a frame that waits.
+constexpr std::chrono::milliseconds room_period{5};
 /// How long a closing socket waits for hosts to receive. Without it, ZeroMQ aborts if a host leaves
 /// while a frame is half sent (libzmq issue 3442).
 constexpr std::chrono::milliseconds farewell{200};
@@ -115,6 +117,7 @@ void FrameServer::bind(const Settings& settings) {
              settings.bind_option, settings.bind);
     }
     std::string port = wanted.port, failures;
+    std::vector<std::string> endpoints;
     for (const std::string& host : hosts) {
         try {
             // "*" listens on both families.
@@ -129,6 +132,7 @@ void FrameServer::bind(const Settings& settings) {
         }
         const std::string bound = router_.get(zmq::sockopt::last_endpoint);
         if (endpoint_.empty()) endpoint_ = bound;
+        endpoints.push_back(bound);
         // The other addresses get the port that the first one was given.
         port = bound.substr(bound.rfind(':') + 1);
     }
@@ -139,6 +143,30 @@ void FrameServer::bind(const Settings& settings) {
     if (hosts.size() > 1)
         log_info("{} = \"{}\" is bound at {}", settings.bind_option, settings.bind,
                  fmt::join(hosts, " and "));
+    if (settings.offers_datagrams) bind_datagrams(endpoints, wanted.port == "*");
+}
+
+void FrameServer::bind_datagrams(const std::vector<std::string>& endpoints, bool any_port) {
+    std::vector<SocketAddress> addresses;
+    for (const std::string& bound : endpoints) {
+        const Endpoint endpoint = parse_endpoint(bound, "stream.bind");
+        addresses.push_back(
+            resolve_all(endpoint.host, any_port ? 0 : std::stoi(endpoint.port)).front());
+    }
+    datagrams_.emplace(addresses, rig_, "stream.road");
+    log_info("rig {} offers SRT to hosts at UDP port {}", rig_, datagrams_->port());
+}
+
+void FrameServer::serve_datagrams(MonotonicTime now) {
+    if (!datagrams_) return;
+    std::vector<DatagramServer::Peer> peers;
+    {
+        const std::lock_guard lock(mutex_);
+        peers = links_.datagram_peers();
+    }
+    const std::vector<DatagramServer::Road> roads = datagrams_->serve(peers, now);
+    const std::lock_guard lock(mutex_);
+    links_.set_roads(peers, roads);
 }
 
 void FrameServer::run() {
@@ -157,16 +185,19 @@ void FrameServer::turn() {
         next_heartbeat_ = now + heartbeat_period;
         beat(now);
     }
+    serve_datagrams(now);
     send_all();
     std::vector<zmq::pollitem_t> items{{nullptr, wake_.fd(), ZMQ_POLLIN, 0},
                                        {router_.handle(), 0, ZMQ_POLLIN, 0},
                                        {strangers_.socket().handle(), 0, ZMQ_POLLIN, 0}};
     if (admission_) items.push_back({admission_->socket().handle(), 0, ZMQ_POLLIN, 0});
-    vantage::wait_for(items, next_heartbeat_ - MonotonicClock::now());
+    std::chrono::nanoseconds wait = next_heartbeat_ - MonotonicClock::now();
+    if (waits_for_room_) wait = std::min<std::chrono::nanoseconds>(wait, room_period);
+    vantage::wait_for(items, wait);
     wake_.clear();
     if (admission_) admission_->answer();
     strangers_.look(MonotonicClock::now());
-    refused_connections_ = strangers_.refused();
+    refused_connections_ = strangers_.refused() + (datagrams_ ? datagrams_->refused() : 0);
     for (int i = 0; i < messages_per_turn && receive(); ++i) {
     }
 }
@@ -252,12 +283,15 @@ void FrameServer::send_all() {
     {
         const std::lock_guard lock(mutex_);
         all = links_.take();
+        waits_for_room_ = links_.waits_for_room();
     }
     std::vector<std::string> gone;
     for (const HostLinks::Outgoing& outgoing : all) {
-        const bool was_gone = std::find(gone.begin(), gone.end(), outgoing.route) != gone.end();
+        // A road of datagrams that has ended does not end the connection over TCP.
+        const std::string way = (outgoing.by_datagrams ? "srt" : "tcp") + outgoing.route;
+        const bool was_gone = std::find(gone.begin(), gone.end(), way) != gone.end();
         if (!was_gone && send(outgoing)) continue;
-        gone.push_back(outgoing.route);
+        gone.push_back(way);
         const std::lock_guard lock(mutex_);
         links_.undelivered(outgoing);
     }
@@ -265,6 +299,10 @@ void FrameServer::send_all() {
 
 bool FrameServer::send(const HostLinks::Outgoing& outgoing) {
     const std::vector<std::byte> message = encode(outgoing.message);
+    if (outgoing.by_datagrams)
+        return datagrams_->send(
+            outgoing.message.link,
+            {message, outgoing.frame->header, outgoing.frame->colour, outgoing.frame->disparity});
     std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(outgoing.route)),
                                                   message};
     if (outgoing.frame) {

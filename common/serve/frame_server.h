@@ -10,10 +10,12 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 #include <zmq.hpp>
 
 #include "common/base/log_limiter.h"
 #include "common/base/time/time.h"
+#include "common/datagrams/datagram_server.h"
 #include "common/serve/host_admission.h"
 #include "common/serve/host_links.h"
 #include "common/serve/stranger_watch.h"
@@ -32,6 +34,7 @@ class FrameServer {
         std::filesystem::path authorized_hosts;   ///< public keys of the hosts, one per line
         int queue_frames = 4;                     ///< frames that may wait for one host
         const char* bind_option = "stream.bind";  ///< name of `bind` in error messages
+        bool offers_datagrams = false;            ///< frames go over SRT to hosts that can take it
     };
 
     /// Throws Error if the endpoint cannot be bound, a key or the list cannot be read, or an
@@ -80,6 +83,9 @@ class FrameServer {
 
   private:
     void bind(const Settings& settings);
+    /// Listens for SRT at the addresses of the bound endpoints.
+    void bind_datagrams(const std::vector<std::string>& endpoints, bool any_port);
+    void serve_datagrams(MonotonicTime now);
     void run();
     void turn();
     void beat(MonotonicTime now);
@@ -110,6 +116,8 @@ class FrameServer {
     zmq::socket_t router_;
     StrangerWatch strangers_;
     std::atomic<std::uint64_t> refused_connections_ = 0;
+    std::optional<DatagramServer> datagrams_;  ///< empty: frames go over TCP only
+    bool waits_for_room_ = false;
     WakeEvent wake_;
     MonotonicTime next_heartbeat_{};
     std::atomic<bool> stopping_ = false;

@@ -18,6 +18,13 @@ constexpr auto silence_limit = 2 * liveness_limit;
 /// Refusals that wait for the socket; further ones are not sent, so that a flood is not answered.
 constexpr std::size_t max_refusals = 32;
 
+/// More than an encoded RigMessage takes, for the room of a frame's message.
+constexpr std::size_t room_of_head = max_header_bytes;
+
+std::size_t room_for(const PackedFrame& frame) {
+    return message_bytes_of(room_of_head + frame.bytes());
+}
+
 std::string display_name(const std::string& host_key) {
     return host_key.empty() ? "a host without key" : "host " + host_key;
 }
@@ -118,13 +125,51 @@ void HostLinks::hear(const Route& route, const std::string& host_key, const Host
     link->streaming = message.streaming;
     link->raw_pairs = message.raw_pairs;
     link->rate_divisor = message.rate_divisor;
+    const std::uint32_t most = link->road.is_open ? max_datagram_credit_window : max_credit_window;
     if (message.link == link->id)
-        link->credit_limit = std::min(message.handled, link->counters.sent) + message.credit_window;
+        link->credit_limit =
+            std::min(message.handled, link->counters.sent) + std::min(message.credit_window, most);
     else
         link->heartbeat_due = true;
     hear_fetch(*link, message.fetch);
     if (!away_.empty()) refuse(route, away_, true);
     link->report_asked = message.report_id;
+    link->answer = message.datagrams;
+}
+
+std::vector<DatagramServer::Peer> HostLinks::datagram_peers() const {
+    std::vector<DatagramServer::Peer> peers;
+    for (const Link& link : links_)
+        if (link.attached && (link.streaming || link.road.offer.id != 0))
+            peers.push_back({link.id, display_name(link.host_key), link.answer});
+    return peers;
+}
+
+void HostLinks::set_roads(const std::vector<DatagramServer::Peer>& peers,
+                          const std::vector<DatagramServer::Road>& roads) {
+    for (Link& link : links_) {
+        const auto peer = std::find_if(peers.begin(), peers.end(),
+                                       [&](const auto& each) { return each.link == link.id; });
+        DatagramServer::Road road;
+        if (peer != peers.end() && link.attached)
+            road = roads[static_cast<std::size_t>(peer - peers.begin())];
+        // The host learns at once of an offer, and of the end of a road.
+        if (road.offer != link.road.offer && link.attached) link.heartbeat_due = true;
+        link.road = std::move(road);
+    }
+}
+
+HostLinks::Way HostLinks::way_of(const Link& link, const PackedFrame& frame) {
+    const std::size_t room = room_for(frame);
+    if (!link.road.is_open || room > max_datagram_message_bytes) return Way::tcp;
+    return room <= link.road.room_bytes ? Way::datagrams : Way::wait;
+}
+
+bool HostLinks::waits_for_room() const {
+    return std::any_of(links_.begin(), links_.end(), [](const Link& link) {
+        return link.attached && !link.queue.empty() && link.counters.sent < link.credit_limit &&
+               way_of(link, *link.queue.front()) == Way::wait;
+    });
 }
 
 bool HostLinks::wants_report() const {
@@ -233,8 +278,11 @@ std::vector<HostLinks::Outgoing> HostLinks::take() {
     refusals_.clear();
     for (Link& link : links_) {
         if (!link.attached) continue;
-        if (link.heartbeat_due && away_.empty())
-            all.push_back({link.route, message_to(link), nullptr});
+        if (link.heartbeat_due && away_.empty()) {
+            RigMessage message = message_to(link);
+            message.offer = link.road.offer;
+            all.push_back({link.route, std::move(message), nullptr});
+        }
         link.heartbeat_due = false;
         if (link.report) {
             RigMessage message = message_to(link);
@@ -243,10 +291,18 @@ std::vector<HostLinks::Outgoing> HostLinks::take() {
                            std::exchange(link.report, nullptr)});
         }
         while (!link.queue.empty() && link.counters.sent < link.credit_limit) {
+            const Way way = way_of(link, *link.queue.front());
+            if (way == Way::wait) break;
             std::shared_ptr<const PackedFrame> frame = std::move(link.queue.front());
             link.queue.pop_front();
             ++link.counters.sent;
-            all.push_back({link.route, message_to(link), std::move(frame)});
+            const bool by_datagrams = way == Way::datagrams;
+            if (by_datagrams) {
+                ++link.sent_by_datagrams;
+                link.road.room_bytes -= room_for(*frame);
+            }
+            all.push_back(
+                {link.route, message_to(link), std::move(frame), nullptr, nullptr, by_datagrams});
         }
         while (link.fetch && !link.fetch->ready.empty()) {
             std::shared_ptr<const KeptParts> kept = std::move(link.fetch->ready.front());
@@ -266,6 +322,11 @@ void HostLinks::undelivered(const Outgoing& outgoing) {
             --link.counters.sent;
             ++link.counters.send_dropped;
             ++dropped_here_;
+        }
+        if (outgoing.by_datagrams) {
+            --link.sent_by_datagrams;
+            link.road.is_open = false;
+            continue;
         }
         if (link.attached && link.route == outgoing.route) {
             log_info("{} disconnected", display_name(link.host_key));
@@ -291,7 +352,7 @@ std::vector<HostLinks::HostStatus> HostLinks::hosts() const {
     std::vector<HostStatus> all;
     for (const Link& link : links_)
         all.push_back({link.host_key, link.attached, link.counters, link.queue.size(), link.fetched,
-                       link.attached && link.streaming});
+                       link.attached && link.streaming, link.attached && link.road.is_open});
     return all;
 }
 
@@ -322,6 +383,7 @@ HostLinks::Link* HostLinks::take_on(const std::string& host_key, std::uint64_t h
 void HostLinks::let_go(Link& link) {
     link.attached = false;
     link.fetch.reset();
+    link.road = {};
     while (!link.queue.empty()) drop_oldest(link);
 }
 
@@ -341,6 +403,9 @@ RigMessage HostLinks::message_to(const Link& link) const {
     message.sync = sync_;
     message.health = health_;
     message.health.refused_connections += refused_connections_;
+    message.offer = {link.road.offer.id, link.road.offer.port, ""};
+    message.sent_by_datagrams = link.sent_by_datagrams;
+    message.datagram_trouble = link.road.trouble;
     if (link.fetch)
         message.fetch = FetchState{link.fetch->request.id, link.fetch->sent, link.fetch->is_over(),
                                    link.fetch->trouble};

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/base/time/time.h"
+#include "common/datagrams/datagram_server.h"
 #include "common/wire/frame_codec.h"
 #include "common/wire/kept_parts.h"
 #include "common/wire/link_message.h"
@@ -33,6 +34,7 @@ class HostLinks {
         std::shared_ptr<const PackedFrame> frame;  ///< null, like `kept`: heartbeat or refusal
         std::shared_ptr<const KeptParts> kept = nullptr;      ///< a frame that the host fetches
         std::shared_ptr<const std::string> report = nullptr;  ///< requested by the host
+        bool by_datagrams = false;  ///< the frame goes on the host's road of datagrams
     };
 
     struct HostStatus {
@@ -42,6 +44,7 @@ class HostLinks {
         std::size_t queued = 0;
         std::uint64_t fetched = 0;  ///< frames of the rig's own recording sent to it
         bool streaming = false;     ///< whether it asks for frames
+        bool by_datagrams = false;  ///< whether its road of datagrams is open
     };
 
     /// A lookup of the next frame that a host fetches: the first recorded one of these pulses.
@@ -120,6 +123,14 @@ class HostLinks {
     /// Removes hosts that were silent for too long.
     void expire(MonotonicTime now);
 
+    /// The attached hosts that ask for frames, or have a road from when they did.
+    std::vector<DatagramServer::Peer> datagram_peers() const;
+    /// Sets the roads of these peers. Other hosts have none.
+    void set_roads(const std::vector<DatagramServer::Peer>& peers,
+                   const std::vector<DatagramServer::Road>& roads);
+    /// Whether a frame waits until a road of datagrams has room.
+    bool waits_for_room() const;
+
     /// Schedules a heartbeat to every attached host.
     void ring();
 
@@ -127,8 +138,9 @@ class HostLinks {
     /// Counts the frames as sent.
     std::vector<Outgoing> take();
 
-    /// Reports that the socket refused a message: removes its host, and counts a frame as dropped
-    /// instead of sent. Precondition: no later message for the same route was sent.
+    /// Reports that a message was not sent: counts a frame as dropped instead of sent, and removes
+    /// its host unless the message was for a road of datagrams, which has ended. Precondition: no
+    /// later message for the same route or road was sent.
     void undelivered(const Outgoing& outgoing);
 
     /// Sets the daemon's counts for heartbeats, except `published` and `send_dropped`, which are
@@ -175,6 +187,9 @@ class HostLinks {
         std::uint32_t rate_divisor = 1;
         std::uint64_t credit_limit = 0;  ///< total frames of this link that may be sent
         LinkCounters counters;
+        std::uint64_t sent_by_datagrams = 0;  ///< of those sent
+        DatagramAnswer answer;
+        DatagramServer::Road road;
         MonotonicTime heard{};
         std::deque<std::shared_ptr<const PackedFrame>> queue;
         std::optional<Fetch> fetch;
@@ -187,6 +202,9 @@ class HostLinks {
     Link* take_on(const std::string& host_key, std::uint64_t host_id);
     void let_go(Link& link);
     void drop_oldest(Link& link);
+    /// The road of a frame; `wait`: until there is room.
+    enum class Way { tcp, datagrams, wait };
+    static Way way_of(const Link& link, const PackedFrame& frame);
     void hear_fetch(Link& link, const std::optional<FetchRequest>& request);
     RigMessage message_to(const Link& link) const;
 

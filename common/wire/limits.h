@@ -39,6 +39,9 @@ inline constexpr std::uint64_t max_trigger_index = std::uint64_t{1} << 53;
 
 /// The number of frames on the way to one host, whatever credit it gives.
 inline constexpr std::uint32_t max_credit_window = 16;
+/// The same while frames go by datagrams, whose sender also bounds what is not acknowledged. Their
+/// credit goes over TCP, which may stand still for a second where packets get lost.
+inline constexpr std::uint32_t max_datagram_credit_window = 64;
 
 inline constexpr std::uint32_t max_rate_divisor = 1000;
 

@@ -42,6 +42,29 @@ void to_wire(const RigHealth& health, wire::Health& out) {
     out.set_keeps(keeps);
 }
 
+void check_sentence(std::string_view what, std::string_view text) {
+    if (text.size() > max_refusal_chars)
+        fail("a {} of {} characters is beyond the limit of {}", what, text.size(),
+             max_refusal_chars);
+    check_printable(what, text);
+}
+
+DatagramOffer from_wire(const wire::DatagramOffer& in) {
+    constexpr std::uint32_t max_port = 65535;
+    // SRT's limits.
+    constexpr std::size_t min_passphrase_chars = 10, max_passphrase_chars = 79;
+    if (in.id() == 0) fail("an offer of datagrams without an id came");
+    if (in.port() < 1 || in.port() > max_port)
+        fail("an offer of datagrams at port {} is outside 1..{}", in.port(), max_port);
+    const std::string& passphrase = in.passphrase();
+    if (!passphrase.empty() &&
+        (passphrase.size() < min_passphrase_chars || passphrase.size() > max_passphrase_chars))
+        fail("a passphrase of {} characters is outside {}..{}", passphrase.size(),
+             min_passphrase_chars, max_passphrase_chars);
+    check_printable("passphrase", passphrase);
+    return {in.id(), static_cast<std::uint16_t>(in.port()), passphrase};
+}
+
 RigHealth from_wire(const wire::Health& in) {
     for (const float value :
          {in.temperature_c(), in.captured_hz(), in.published_hz(), in.calibration_row_rms_px()})
@@ -89,10 +112,7 @@ FetchRequest from_wire(const wire::Fetch& in) {
 
 FetchState from_wire(const wire::Fetched& in) {
     if (in.id() == 0) fail("an answer to a fetch without an id came");
-    if (in.trouble().size() > max_refusal_chars)
-        fail("a trouble of {} characters is beyond the limit of {}", in.trouble().size(),
-             max_refusal_chars);
-    check_printable("trouble", in.trouble());
+    check_sentence("trouble", in.trouble());
     return {in.id(), in.sent(), in.over(), in.trouble()};
 }
 
@@ -118,6 +138,11 @@ std::vector<std::byte> encode(const HostMessage& message) {
     }
     out.set_report_id(message.report_id);
     if (message.tai_offset_s) out.set_tai_offset_s(*message.tai_offset_s);
+    if (message.datagrams.offer != 0) {
+        out.mutable_datagrams()->set_offer(message.datagrams.offer);
+        out.mutable_datagrams()->set_trouble(
+            message.datagrams.trouble.substr(0, max_refusal_chars));
+    }
     return serialise(out);
 }
 
@@ -126,9 +151,9 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
     parse(part, "host message", in);
     check_schema_version("host message", in.schema_version());
     if (in.host_id() == 0) fail("a host message without host id came");
-    if (in.credit_window() < 1 || in.credit_window() > max_credit_window)
+    if (in.credit_window() < 1 || in.credit_window() > max_datagram_credit_window)
         fail("a credit window of {} frames is outside 1..{}", in.credit_window(),
-             max_credit_window);
+             max_datagram_credit_window);
     if (in.rate_divisor() < 1 || in.rate_divisor() > max_rate_divisor)
         fail("a rate divisor of {} is outside 1..{}", in.rate_divisor(), max_rate_divisor);
     if (in.first_pulse() > max_trigger_index)
@@ -138,6 +163,10 @@ HostMessage decode_host_message(std::span<const std::byte> part) {
     if (in.has_fetch()) message.fetch = from_wire(in.fetch());
     message.report_id = in.report_id();
     if (in.has_tai_offset_s()) message.tai_offset_s = in.tai_offset_s();
+    if (in.datagrams().offer() != 0) {
+        check_sentence("trouble", in.datagrams().trouble());
+        message.datagrams = {in.datagrams().offer(), in.datagrams().trouble()};
+    }
     return message;
 }
 
@@ -164,6 +193,14 @@ std::vector<std::byte> encode(const RigMessage& message) {
     out.set_report_id(message.report_id);
     out.set_refusal(message.refusal.substr(0, max_refusal_chars));
     out.set_refusal_passes(message.refusal_passes);
+    if (message.offer.id != 0) {
+        wire::DatagramOffer& offer = *out.mutable_datagrams();
+        offer.set_id(message.offer.id);
+        offer.set_port(message.offer.port);
+        offer.set_passphrase(message.offer.passphrase);
+    }
+    out.set_sent_by_datagrams(message.sent_by_datagrams);
+    out.set_datagram_trouble(message.datagram_trouble.substr(0, max_refusal_chars));
     return serialise(out);
 }
 
@@ -172,10 +209,7 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     parse(part, "rig message", in);
     check_schema_version("rig message", in.schema_version());
     check_name("rig", in.rig());
-    if (in.refusal().size() > max_refusal_chars)
-        fail("a refusal of {} characters is beyond the limit of {}", in.refusal().size(),
-             max_refusal_chars);
-    check_printable("refusal", in.refusal());
+    check_sentence("refusal", in.refusal());
     if (in.refusal().empty() && in.link() == 0) fail("a rig message without link came");
     RigMessage message;
     message.rig = in.rig();
@@ -189,6 +223,13 @@ RigMessage decode_rig_message(std::span<const std::byte> part) {
     message.report_id = in.report_id();
     message.refusal = in.refusal();
     message.refusal_passes = in.refusal_passes();
+    if (in.has_datagrams()) message.offer = from_wire(in.datagrams());
+    if (in.sent_by_datagrams() > in.sent())
+        fail("a rig counts {} frames sent by datagrams of {} in all", in.sent_by_datagrams(),
+             in.sent());
+    message.sent_by_datagrams = in.sent_by_datagrams();
+    check_sentence("trouble", in.datagram_trouble());
+    message.datagram_trouble = in.datagram_trouble();
     return message;
 }
 

@@ -31,12 +31,29 @@ struct FetchState {
     bool operator==(const FetchState&) const = default;
 };
 
+/// A rig's offer to one host of a road of datagrams (SRT) for its frames, for one connection.
+struct DatagramOffer {
+    std::uint64_t id = 0;    ///< random; 0: none at present
+    std::uint16_t port = 0;  ///< UDP, at the address of the TCP connection
+    std::string passphrase;  ///< in heartbeats only; else empty
+
+    bool operator==(const DatagramOffer&) const = default;
+};
+
+/// The host's answer to it.
+struct DatagramAnswer {
+    std::uint64_t offer = 0;  ///< id of the offer that it tried last; 0: none
+    std::string trouble;      ///< why the road did not open or ended, in a sentence; empty: none
+
+    bool operator==(const DatagramAnswer&) const = default;
+};
+
 /// A host's message to a rig: its complete request, sent on every change and as a heartbeat.
 struct HostMessage {
     std::uint64_t host_id = 0;        ///< random per receiver, not 0
     std::uint64_t link = 0;           ///< the link that `handled` refers to; 0: none yet
     std::uint64_t handled = 0;        ///< frames of that link that the host has finished with
-    std::uint32_t credit_window = 1;  ///< 1..max_credit_window frames beyond those
+    std::uint32_t credit_window = 1;  ///< 1..max_datagram_credit_window frames beyond those
     bool streaming = true;
     std::uint32_t rate_divisor = 1;  ///< 1..max_rate_divisor; asks for its multiples only
     std::uint64_t first_pulse = 0;   ///< of the take; 0: not announced yet
@@ -44,6 +61,7 @@ struct HostMessage {
     std::optional<FetchRequest> fetch = {};
     std::uint64_t report_id = 0;           ///< random: asks for a report; 0: none
     std::optional<int> tai_offset_s = {};  ///< of the host's clock; empty: not reported
+    DatagramAnswer datagrams = {};
 
     bool operator==(const HostMessage&) const = default;
 };
@@ -79,6 +97,9 @@ struct RigMessage {
     std::uint64_t report_id = 0;  ///< of the report that follows; 0: none
     std::string refusal;          ///< why the rig does not serve this host; empty: it does
     bool refusal_passes = false;  ///< temporary: a relay does not reach the rig
+    DatagramOffer offer;
+    std::uint64_t sent_by_datagrams = 0;  ///< of counters.sent
+    std::string datagram_trouble;  ///< why an offered road is not used, in a sentence; empty: none
 };
 
 /// Decoders take untrusted bytes. They throw Error with one sentence if a message is truncated,

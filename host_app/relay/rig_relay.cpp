@@ -138,6 +138,7 @@ struct RigRelay::Impl {
         for (const auto& rig : rigs) {
             items.push_back({rig->link.socket().handle(), 0, ZMQ_POLLIN, 0});
             items.push_back({rig->link.monitor().handle(), 0, ZMQ_POLLIN, 0});
+            items.push_back({nullptr, rig->link.datagrams_fd(), ZMQ_POLLIN, 0});
         }
         wait_for(items, request_period);
         wake.clear();

@@ -34,7 +34,10 @@ FrameServer::Settings settings_of(const RigConfig::Stream& config) {
     if (config.key_file.empty() != config.authorized_hosts.empty())
         fail("stream.key_file and stream.authorized_hosts are needed together; only {} is set",
              config.key_file.empty() ? "stream.authorized_hosts" : "stream.key_file");
-    return {config.bind, config.key_file, config.authorized_hosts, config.queue_frames};
+    FrameServer::Settings settings{config.bind, config.key_file, config.authorized_hosts,
+                                   config.queue_frames};
+    settings.offers_datagrams = config.road == "srt";
+    return settings;
 }
 
 }  // namespace

@@ -188,7 +188,10 @@ void ImpairedRoad::take_in(std::size_t end) {
         const std::uint64_t number = ++way.packets;
         ++counts_.came;
         counts_.bytes += static_cast<std::uint64_t>(bytes);
-        const RoadTrouble& trouble = troubles_[end];
+        constexpr std::size_t place_of_protocol = 9;
+        const bool is_udp = std::to_integer<int>(packet[place_of_protocol]) == IPPROTO_UDP;
+        const RoadTrouble& asked = troubles_[end];
+        const RoadTrouble trouble = asked.only_udp && !is_udp ? RoadTrouble{} : asked;
         const bool is_in_run = trouble.lose_every > 0 && number >= trouble.lose_every &&
                                number % trouble.lose_every < trouble.lose_run;
         const bool is_too_large = trouble.lose_over_bytes > 0 &&

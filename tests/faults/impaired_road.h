@@ -29,6 +29,7 @@ struct RoadTrouble {
     std::chrono::milliseconds late_by{0};
     std::chrono::microseconds delay{0};  ///< of all packets
     bool is_down = false;                ///< nothing comes through
+    bool only_udp = false;               ///< other packets have no trouble
 };
 
 /// A place for rigs, as far away as another computer: a network namespace of its own, joined to

@@ -1,6 +1,5 @@
 // What a network does to the frames between a rig and a host, and what becomes of them.
 #include <chrono>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,11 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "common/receive/stage_receiver.h"
-#include "common/wire/curve_keys.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/faults/impaired_road.h"
 #include "tests/support/data_folder.h"
 #include "tests/support/eventually.h"
+#include "tests/support/keyed_stream.h"
 #include "tests/support/wire_frames.h"
 
 namespace vantage {
@@ -45,14 +44,8 @@ class LinkFaults : public testing::TestWithParam<NetworkFault> {
         if (const std::string reason = ImpairedRoad::reason_against(); !reason.empty())
             GTEST_SKIP() << "SKIPPED: " << reason;
         road_ = std::make_unique<ImpairedRoad>();
-        const CurveKeys host_keys = generate_curve_keys();
-        write_key_file(folder_.path() / "host.key", host_keys);
-        write_key_file(folder_.path() / "rig.key", generate_curve_keys());
-        std::ofstream(folder_.path() / "hosts.keys") << host_keys.public_key << " the host\n";
-        RigConfig::Stream stream;
+        RigConfig::Stream stream = keyed_stream(folder_.path());
         stream.jpeg_quality = 0;
-        stream.key_file = folder_.path() / "rig.key";
-        stream.authorized_hosts = folder_.path() / "hosts.keys";
         stream.bind = "tcp://127.0.0.1:*";
         near_ = std::make_unique<Publisher>(stream, "near");
         stream.bind = "tcp://*:5600";

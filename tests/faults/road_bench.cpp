@@ -1,15 +1,11 @@
 // Measures a rig's stream over TCP and over SRT on links with loss and long round trips: the share
-// of frames that arrive, their latency, and the bytes on the link. Writes the table of
-// docs/results/faults.md.
-#include <array>
+// of frames that arrive, their latency, and the bytes on the link. Rig and host are Vantage's own
+// publisher and receiver. Writes the table of docs/results/faults.md.
 #include <chrono>
-#include <cstring>
 #include <fstream>
 #include <functional>
 #include <iostream>
 #include <memory>
-#include <mutex>
-#include <span>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -18,15 +14,12 @@
 #include <fmt/format.h>
 
 #include "common/base/error.h"
-#include "common/base/percentiles.h"
 #include "common/receive/stage_receiver.h"
-#include "common/wire/curve_keys.h"
-#include "common/wire/frame_codec.h"
 #include "rig_firmware/stream/publisher.h"
 #include "tests/bench/support/markdown_tables.h"
 #include "tests/faults/impaired_road.h"
-#include "tests/faults/srt_stream.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/keyed_stream.h"
 #include "tests/support/wire_frames.h"
 
 namespace vantage {
@@ -36,7 +29,6 @@ using namespace std::chrono_literals;
 
 constexpr auto frame_period = 40ms;
 constexpr double latency_budget_ms = 200;
-constexpr int hold_ms = 200;
 /// The wait for frames that are under way at the end of a measurement.
 constexpr auto under_way = 400ms;
 
@@ -65,22 +57,9 @@ double mbit_per_s(const ImpairedRoad& road, std::uint64_t bytes_before, double s
     return 8e-6 * static_cast<double>(road.counts().bytes - bytes_before) / seconds;
 }
 
-std::vector<SrtManner> manners() {
-    // With arq:onreq, the default, libsrt 1.5.1 stops for good where packets are not held and FEC
-    // cannot compute one.
-    const std::string rows = "fec,cols:5,arq:always",
-                      columns = "fec,cols:12,rows:6,layout:staircase,arq:always";
-    return {{.name = "SRT"},
-            {.name = "SRT, FEC 5", .filter = rows},
-            {.name = "SRT, FEC 12x6", .filter = columns},
-            {.name = "SRT, held", .hold_ms = hold_ms},
-            {.name = "SRT, held, FEC 5", .hold_ms = hold_ms, .filter = rows},
-            {.name = "SRT, held, FEC 12x6", .hold_ms = hold_ms, .filter = columns},
-            {.name = "SRT, messages", .sends_messages = true}};
-}
-
 /// Of this thread's network.
 void use_congestion_control(const std::string& name) {
+    if (name.empty()) return;
     std::ofstream setting("/proc/sys/net/ipv4/tcp_congestion_control");
     setting << name << std::flush;
     if (!setting)
@@ -91,31 +70,40 @@ void use_congestion_control(const std::string& name) {
             name);
 }
 
-Result measure(const RoadTrouble& trouble, const std::string& control, double seconds,
-               cv::Size size) {
+/// How frames go.
+struct Manner {
+    std::string name;
+    std::string road;     ///< of rig.toml
+    std::string control;  ///< of TCP's congestion; empty: the computer's own
+};
+
+Result measure(const RoadTrouble& trouble, const Manner& manner, double seconds, cv::Size size) {
     ImpairedRoad road;
-    use_congestion_control(control);
-    road.at_the_rigs([&] { use_congestion_control(control); });
+    use_congestion_control(manner.control);
+    road.at_the_rigs([&] { use_congestion_control(manner.control); });
     const TemporaryFolder folder;
-    const CurveKeys host_keys = generate_curve_keys();
-    write_key_file(folder.path() / "host.key", host_keys);
-    write_key_file(folder.path() / "rig.key", generate_curve_keys());
-    std::ofstream(folder.path() / "hosts.keys") << host_keys.public_key << " the host\n";
-    RigConfig::Stream stream;
-    stream.bind = "tcp://*:5600";
-    stream.key_file = folder.path() / "rig.key";
-    stream.authorized_hosts = folder.path() / "hosts.keys";
+    RigConfig::Stream stream = keyed_stream(folder.path());
+    stream.bind = "tcp://*:*";
+    stream.road = manner.road;
     std::unique_ptr<Publisher> rig;
     road.at_the_rigs([&] { rig = std::make_unique<Publisher>(stream, "far"); });
     StageConfig stage;
     stage.rate_hz = 25;
     stage.latency_budget_ms = latency_budget_ms;
     stage.key_file = folder.path() / "host.key";
+    // "tcp://[::]:PORT"
+    const std::string port = rig->endpoint().substr(rig->endpoint().rfind(':') + 1);
     stage.rigs.push_back(
-        {"far", fmt::format("tcp://{}:5600", ImpairedRoad::rig_address), rig->public_key()});
-    StageReceiver host(stage);
-    while (!host.status().rigs[0].connected) std::this_thread::sleep_for(10ms);
+        {"far", fmt::format("tcp://{}:{}", ImpairedRoad::rig_address, port), rig->public_key()});
+    // As it is before they connect, since TCP and BBR remember the shortest round trip.
     road.impair(trouble);
+    StageReceiver host(stage);
+    RigSync sync;
+    sync.rate_hz = stage.rate_hz;
+    rig->report(sync);
+    const bool is_srt = manner.road == "srt";
+    while (!host.status().rigs[0].connected || host.status().rigs[0].by_datagrams != is_srt)
+        std::this_thread::sleep_for(10ms);
     Result result;
     const RigFrame filmed = make_frame(0, size.width, size.height);
     const std::uint64_t bytes_before = road.counts().bytes;
@@ -136,75 +124,6 @@ Result measure(const RoadTrouble& trouble, const std::string& control, double se
     result.came = status.received;
     result.p50_ms = status.latency_ms.p50;
     result.p99_ms = status.latency_ms.p99;
-    return result;
-}
-
-/// The three parts of a frame in a row, each behind its size.
-std::vector<std::byte> joined(const PackedFrame& frame) {
-    std::vector<std::byte> bytes;
-    for (const auto* part : {&frame.header, &frame.colour, &frame.disparity}) {
-        const auto size = static_cast<std::uint32_t>(part->size());
-        const auto head = std::as_bytes(std::span(&size, 1));
-        bytes.insert(bytes.end(), head.begin(), head.end());
-        bytes.insert(bytes.end(), part->begin(), part->end());
-    }
-    return bytes;
-}
-
-std::array<std::span<const std::byte>, 3> parts_of(std::span<const std::byte> bytes) {
-    std::array<std::span<const std::byte>, 3> parts;
-    for (auto& part : parts) {
-        std::uint32_t size = 0;
-        std::memcpy(&size, bytes.data(), sizeof size);
-        part = bytes.subspan(sizeof size, size);
-        bytes = bytes.subspan(sizeof size + size);
-    }
-    return parts;
-}
-
-Result measure(const RoadTrouble& trouble, const SrtManner& manner, double seconds, cv::Size size) {
-    // SRT keeps a port for a while, on the network of the measurement before.
-    static int port = 5600;
-    ++port;
-    ImpairedRoad road;
-    std::unique_ptr<SrtSender> rig;
-    road.at_the_rigs([&] { rig = std::make_unique<SrtSender>(manner, port); });
-    PercentileRecorder latency_ms;
-    std::uint64_t came = 0;
-    FrameDecoder decoder;
-    Result result;
-    {
-        std::mutex mutex;
-        const SrtReceiver host(
-            manner, ImpairedRoad::rig_address, port, [&](std::span<const std::byte> bytes) {
-                const auto parts = parts_of(bytes);
-                const RigFrame frame = decoder.decode(parts[0], parts[1], parts[2]);
-                const std::lock_guard lock(mutex);
-                latency_ms.add(to_ms(TaiClock::now() - frame.exposure));
-                ++came;
-            });
-        rig->accept();
-        road.impair(trouble);
-        FrameEncoder encoder(RigConfig::Stream().jpeg_quality);
-        const RigFrame filmed = make_frame(0, size.width, size.height);
-        const std::uint64_t bytes_before = road.counts().bytes;
-        result.filmed = film(seconds, [&](std::uint64_t number) {
-            RigFrame frame = filmed;
-            frame.rig = "far";
-            frame.session = 1;
-            frame.trigger_index = 1000 + number;
-            frame.exposure = TaiClock::now();
-            const std::vector<std::byte> bytes = joined(encoder.encode(frame));
-            result.frame_bytes = bytes.size();
-            rig->send(bytes);
-        });
-        result.mbit_per_s = mbit_per_s(road, bytes_before, seconds);
-        const std::lock_guard lock(mutex);
-        result.came = came;
-        const Percentiles times = latency_ms.summary();
-        result.p50_ms = times.p50;
-        result.p99_ms = times.p99;
-    }
     return result;
 }
 
@@ -230,29 +149,18 @@ void run(int argc, char** argv) {
     const std::vector<int> round_trips_ms{1, 20, 100};
     std::size_t frame_bytes = 0;
     std::ostringstream rows;
-    struct Road {
-        std::string name;
-        std::function<Result(const RoadTrouble&)> measure;
-    };
-    std::vector<Road> roads;
-    for (const char* control : {"cubic", "bbr"})
-        roads.push_back({fmt::format("TCP, {}", control), [=](const RoadTrouble& trouble) {
-                             return measure(trouble, control, seconds, size);
-                         }});
-    for (const SrtManner& manner : manners())
-        roads.push_back({manner.name, [=](const RoadTrouble& trouble) {
-                             return measure(trouble, manner, seconds, size);
-                         }});
-    for (const Road& road : roads) {
-        if (road.name.find(only) == std::string::npos) continue;
+    const std::vector<Manner> manners{
+        {"TCP, cubic", "tcp", "cubic"}, {"TCP, bbr", "tcp", "bbr"}, {"SRT", "srt", ""}};
+    for (const Manner& manner : manners) {
+        if (manner.name.find(only) == std::string::npos) continue;
         for (const unsigned lose_every : {0u, 100u, 33u, 14u, 10u}) {
-            rows << fmt::format("| {} | {:.0f} % |", road.name,
+            rows << fmt::format("| {} | {:.0f} % |", manner.name,
                                 lose_every == 0 ? 0.0 : 100.0 / lose_every);
             for (const int round_trip_ms : round_trips_ms) {
                 RoadTrouble trouble;
                 trouble.lose_every = lose_every;
                 trouble.delay = std::chrono::microseconds(500 * round_trip_ms);
-                const Result result = road.measure(trouble);
+                const Result result = measure(trouble, manner, seconds, size);
                 frame_bytes = result.frame_bytes;
                 rows << fmt::format(
                     " {:.0f} %, {:.0f}, {:.0f}, {:.0f} |",
@@ -260,7 +168,7 @@ void run(int argc, char** argv) {
                     result.p50_ms, result.p99_ms, result.mbit_per_s);
             }
             rows << "\n";
-            std::cerr << road.name << ", every " << lose_every << "\n";
+            std::cerr << manner.name << ", every " << lose_every << "\n";
         }
     }
     text << fmt::format(

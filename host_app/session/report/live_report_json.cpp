@@ -235,6 +235,9 @@ nlohmann::ordered_json to_json(const LiveReport& report) {
         entry["same_clock"] = rig.status.same_clock;
         entry["sync"] = to_json(rig.status.sync);
         entry["health"] = to_json(rig.status.health);
+        entry["road"] = rig.status.by_datagrams ? "srt" : "tcp";
+        if (!rig.status.datagram_trouble.empty())
+            entry["road_trouble"] = rig.status.datagram_trouble;
         if (!rig.status.last_error.empty()) entry["last_error"] = rig.status.last_error;
         json["rigs"].push_back(std::move(entry));
     }

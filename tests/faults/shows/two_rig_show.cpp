@@ -11,6 +11,7 @@
 
 #include "common/receive/stage_receiver.h"
 #include "common/wire/curve_keys.h"
+#include "common/wire/limits.h"
 #include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 #include "tests/support/http_answer.h"
@@ -65,7 +66,8 @@ std::unique_ptr<ChildProgram> TwoRigShow::start_far() {
     road_->at_the_rigs([&] {
         rig = start_rig("far", -12,
                         "bind = \"tcp://*:5600\"\nkey_file = \"rig.key\"\n"
-                        "authorized_hosts = \"hosts.keys\"\n");
+                        "authorized_hosts = \"hosts.keys\"\nroad = \"" +
+                            far_road() + "\"\n");
     });
     return rig;
 }
@@ -211,7 +213,7 @@ void TwoRigShow::expect_balanced(const nlohmann::json& rig) {
     const std::int64_t under_way = count("link", "sent") - count("link", "lost") -
                                    count("host", "received") - count("host", "queue_dropped");
     EXPECT_GE(under_way, 0) << rig;
-    EXPECT_LE(under_way, 4) << "the credits of a host: " << rig;
+    EXPECT_LE(under_way, max_credit_window) << "the credits of a host: " << rig;
     const std::int64_t waiting = count("link", "offered") - count("link", "sent") -
                                  count("link", "send_dropped") - count("link", "skipped");
     EXPECT_GE(waiting, 0) << rig;

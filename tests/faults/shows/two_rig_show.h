@@ -28,6 +28,9 @@ class TwoRigShow : public testing::Test {
     /// Two seconds.
     static constexpr int sets_to_recover = 10;
 
+    /// The far rig's road, of its rig.toml.
+    virtual std::string far_road() const { return "tcp"; }
+
     void SetUp() override;
     void TearDown() override;
 

@@ -8,7 +8,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace vantage;
     static FrameDecoder decoder;
-    const FrameParts parts = split_frame(std::as_bytes(std::span(data, size)));
+    const SeedParts parts = split_frame(std::as_bytes(std::span(data, size)));
     expect_result_or_error([&] { decoder.decode(parts.header, parts.colour, parts.disparity); });
     return 0;
 }

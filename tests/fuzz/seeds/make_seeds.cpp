@@ -13,6 +13,7 @@
 #include "common/base/files/atomic_file.h"
 #include "common/calibration_forms/calibration_form.h"
 #include "common/config/calibration_file.h"
+#include "common/datagrams/frame_packets.h"
 #include "common/image/pfm.h"
 #include "common/image/png.h"
 #include "common/pairing/pair_code.h"
@@ -116,6 +117,21 @@ void write_messages(const Seeds& seeds) {
     seeds.write("link_message", "fetched", encode(message));
     message.refusal = "no";
     seeds.write("link_message", "refusal", encode(message));
+    message.refusal.clear();
+    message.offer = {7, 5600, "a passphrase of a seed"};
+    message.sent_by_datagrams = 3;
+    message.datagram_trouble = "a trouble";
+    const std::vector<std::byte> head = encode(message);
+    seeds.write("link_message", "offer", head);
+    std::vector<std::byte> packets;
+    const auto append = [&](std::span<const std::byte> packet) {
+        packets.push_back(static_cast<std::byte>((packet_bytes - packet.size()) / 6));
+        packets.insert(packets.end(), packet.begin(), packet.end());
+        return true;
+    };
+    const std::vector<std::byte> colour(3000, std::byte{7});
+    cut_message(join_parts({head, head, colour, {}}, message.offer.passphrase), 0, append);
+    seeds.write("frame_packets", "frame", packets);
 }
 
 void write_pairing(const Seeds& seeds) {

@@ -29,10 +29,10 @@ void append_length(std::vector<std::byte>& out, std::size_t length, std::size_t 
 
 }  // namespace
 
-FrameParts split_frame(std::span<const std::byte> input) {
+SeedParts split_frame(std::span<const std::byte> input) {
     const std::size_t header = take_length(input, header_length_bytes);
     const std::size_t colour = take_length(input, colour_length_bytes);
-    FrameParts parts;
+    SeedParts parts;
     parts.header = take(input, header);
     parts.colour = take(input, colour);
     parts.disparity = input;

@@ -11,10 +11,10 @@ namespace vantage {
 
 /// The input of frame_decoder_fuzz: three parts behind each other, the length of the first two as
 /// two and three bytes, little-endian, before them. Any bytes mean something.
-struct FrameParts {
+struct SeedParts {
     std::span<const std::byte> header, colour, disparity;
 };
-FrameParts split_frame(std::span<const std::byte> input);
+SeedParts split_frame(std::span<const std::byte> input);
 std::vector<std::byte> join_frame(const PackedFrame& frame);
 
 /// A small good frame.

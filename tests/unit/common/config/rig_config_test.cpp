@@ -22,6 +22,7 @@ TEST_F(RigConfigTest, UsesDefaultsForMissingKeys) {
     EXPECT_EQ(config.match.preset, "balanced");
     EXPECT_EQ(config.match.width_px, 0) << "that of the picture";
     EXPECT_EQ(config.stream.queue_frames, 4);
+    EXPECT_EQ(config.stream.road, "tcp");
     EXPECT_TRUE(config.calibration.empty());
     EXPECT_FALSE(config.uncalibrated);
 }
@@ -74,6 +75,7 @@ bind = "tcp://0.0.0.0:5601"
 jpeg_quality = 0
 chroma = "4:2:2"
 queue_frames = 2
+road = "srt"
 key_file = "keys/rig.key"
 authorized_hosts = "/etc/hosts.keys"
 )");
@@ -111,6 +113,7 @@ authorized_hosts = "/etc/hosts.keys"
     EXPECT_EQ(config.stream.jpeg_quality, 0);
     EXPECT_EQ(config.stream.chroma, "4:2:2");
     EXPECT_EQ(config.stream.queue_frames, 2);
+    EXPECT_EQ(config.stream.road, "srt");
     EXPECT_EQ(config.keep.folder, "/var/takes");
     EXPECT_EQ(config.keep.gigabytes, 12.5);
     EXPECT_EQ(config.keep.hours, 24);

@@ -53,6 +53,67 @@ TEST(LinkAccount, RefusesADecreasingCount) {
     EXPECT_EQ(account.lost(), 0u);
 }
 
+RigMessage message_of_roads(std::uint64_t offer, std::uint64_t sent,
+                            std::uint64_t sent_by_datagrams, std::uint64_t link = 1) {
+    RigMessage message = message_of(link, sent);
+    message.offer.id = offer;
+    message.sent_by_datagrams = sent_by_datagrams;
+    return message;
+}
+
+TEST(LinkAccount, FramesByDatagramsAreUnderWayWhileTheirRoadIsOpen) {
+    LinkAccount account;
+    account.hear(message_of_roads(7, 2, 0), true);
+    EXPECT_EQ(account.lost(), 1u);
+    // The heartbeat overtakes four frames by datagrams.
+    EXPECT_EQ(account.hear(message_of_roads(7, 6, 4), false), 0u);
+    EXPECT_EQ(account.known(), 2u);
+    for (std::uint64_t k = 1; k <= 3; ++k)
+        EXPECT_EQ(account.hear_datagrams(message_of_roads(7, 2 + k, k)), 0u);
+    EXPECT_EQ(account.known(), 5u);
+    EXPECT_EQ(account.handled(1), 4u);
+    EXPECT_EQ(account.link_counters().sent, 6u) << "an older message changes no counts";
+    // The road ended with the fourth on it, and the next frame comes over TCP.
+    EXPECT_EQ(account.hear(message_of_roads(0, 7, 4), true), 1u);
+    EXPECT_EQ(account.known(), 7u);
+    EXPECT_EQ(account.lost(), 2u);
+    EXPECT_THROW(account.hear_datagrams(message_of_roads(7, 6, 4)), Error);
+    // A new offer, whose road goes on counting.
+    account.hear(message_of_roads(8, 7, 4), false);
+    EXPECT_EQ(account.hear_datagrams(message_of_roads(8, 8, 5)), 0u);
+    EXPECT_EQ(account.known(), 8u);
+    EXPECT_EQ(account.lost(), 2u);
+}
+
+TEST(LinkAccount, AFrameOverTcpMayComeAfterLaterOnesByDatagrams) {
+    LinkAccount account;
+    account.hear(message_of_roads(7, 0, 0), false);
+    EXPECT_EQ(account.hear_datagrams(message_of_roads(7, 2, 1)), 0u);
+    EXPECT_EQ(account.hear(message_of_roads(7, 1, 0), true), 0u);
+    EXPECT_EQ(account.known(), 2u);
+    EXPECT_EQ(account.lost(), 0u);
+}
+
+TEST(LinkAccount, DetectsAGapOnTheRoadOfDatagrams) {
+    LinkAccount account;
+    account.hear(message_of_roads(7, 0, 0), false);
+    EXPECT_EQ(account.hear_datagrams(message_of_roads(7, 3, 3)), 2u);
+    EXPECT_THROW(account.hear_datagrams(message_of_roads(7, 3, 3)), Error);
+    EXPECT_EQ(account.known(), 3u);
+}
+
+TEST(LinkAccount, FramesByDatagramsOfAnEndedLinkAreLost) {
+    LinkAccount account;
+    account.hear(message_of_roads(7, 3, 3), false);
+    account.hear_datagrams(message_of_roads(7, 4, 4));
+    EXPECT_EQ(account.lost(), 3u);
+    account.hear(message_of_roads(7, 6, 6), false);
+    EXPECT_EQ(account.hear(message_of_roads(9, 1, 0, 2), true), 2u);
+    EXPECT_EQ(account.lost(), 5u);
+    EXPECT_EQ(account.known(), 1u);
+    EXPECT_EQ(account.link_counters().sent, 7u);
+}
+
 RigMessage message_of_session(std::uint64_t session, const LinkCounters& link,
                               const RigCounters& rig) {
     RigMessage message = message_of(session, link.sent);

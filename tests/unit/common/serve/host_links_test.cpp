@@ -393,5 +393,107 @@ TEST_F(HostLinksFetchTest, NothingIsLookedUpForADisconnectedHost) {
     EXPECT_FALSE(links_.next_fetch());
 }
 
+std::shared_ptr<const PackedFrame> large_frame_of(std::uint64_t index, std::size_t bytes) {
+    auto frame = std::make_shared<PackedFrame>();
+    frame->trigger_index = index;
+    frame->colour.resize(bytes);
+    return frame;
+}
+
+class HostRoadsTest : public HostLinksTest {
+  protected:
+    void open_road(std::size_t room_bytes) {
+        const auto peers = links_.datagram_peers();
+        ASSERT_EQ(peers.size(), 1u);
+        EXPECT_EQ(peers[0].link, link_);
+        DatagramServer::Road road;
+        road.offer = {7, 5600, "a passphrase of a test"};
+        road.is_open = room_bytes > 0;
+        road.room_bytes = room_bytes;
+        links_.set_roads(peers, {road});
+    }
+    static std::vector<bool> roads(const std::vector<HostLinks::Outgoing>& all) {
+        std::vector<bool> result;
+        for (const auto& outgoing : all)
+            if (outgoing.frame) result.push_back(outgoing.by_datagrams);
+        return result;
+    }
+};
+
+TEST_F(HostRoadsTest, TheOfferIsToldAtOnceAndItsPassphraseBesideNoFrame) {
+    attach("r1", 5, 9);
+    open_road(0);
+    offer(1, 1);
+    const auto all = links_.take();
+    ASSERT_EQ(all.size(), 2u);
+    EXPECT_EQ(all[0].message.offer.passphrase, "a passphrase of a test");
+    EXPECT_FALSE(all[1].by_datagrams);
+    EXPECT_EQ(all[1].message.offer.id, 7u);
+    EXPECT_EQ(all[1].message.offer.passphrase, "");
+    EXPECT_EQ(all[1].message.sent_by_datagrams, 0u);
+}
+
+TEST_F(HostRoadsTest, FramesWaitForRoomAndTheOldestIsDroppedAndCounted) {
+    attach("r1", 5, 9);
+    constexpr std::size_t bytes = 100'000;
+    open_road(2 * bytes + 20'000);
+    for (std::uint64_t k = 1; k <= 3; ++k) links_.offer(large_frame_of(k, bytes));
+    const auto first = links_.take();
+    EXPECT_THAT(indices(first), testing::ElementsAre(1, 2));
+    EXPECT_THAT(roads(first), testing::ElementsAre(true, true));
+    EXPECT_EQ(first.back().message.sent_by_datagrams, 2u);
+    EXPECT_TRUE(links_.waits_for_room());
+    for (std::uint64_t k = 4; k <= 6; ++k) links_.offer(large_frame_of(k, bytes));
+    EXPECT_TRUE(indices(links_.take()).empty());
+    open_road(4 * bytes + 40'000);
+    EXPECT_THAT(indices(links_.take()), testing::ElementsAre(4, 5, 6));
+    EXPECT_FALSE(links_.waits_for_room());
+    const LinkCounters counters = links_.hosts().at(0).counters;
+    EXPECT_EQ(counters.offered, 6u);
+    EXPECT_EQ(counters.sent, 5u);
+    EXPECT_EQ(counters.send_dropped, 1u);
+}
+
+TEST_F(HostRoadsTest, AHostIsGrantedMoreWhileItsRoadIsOpen) {
+    HostLinks links("rig-a", 42, max_datagram_credit_window);
+    HostMessage message;
+    message.host_id = 5;
+    message.credit_window = max_datagram_credit_window;
+    links.hear("r1", "key", message, now_);
+    message.link = links.take().at(0).message.link;
+    links.hear("r1", "key", message, now_);
+    for (std::uint64_t k = 1; k <= max_datagram_credit_window; ++k) links.offer(frame_of(k));
+    EXPECT_EQ(links.take().size(), max_credit_window);
+    DatagramServer::Road road;
+    road.is_open = true;
+    road.room_bytes = 100 << 20;
+    links.set_roads(links.datagram_peers(), {road});
+    links.hear("r1", "key", message, now_);
+    EXPECT_EQ(links.take().size(), max_datagram_credit_window - max_credit_window);
+}
+
+TEST_F(HostRoadsTest, AFrameBeyondTheLimitGoesOverTcp) {
+    attach("r1", 5, 9);
+    open_road(1 << 20);
+    links_.offer(large_frame_of(1, max_datagram_message_bytes));
+    EXPECT_THAT(roads(links_.take()), testing::ElementsAre(false));
+}
+
+TEST_F(HostRoadsTest, ARoadThatEndsUnderAFrameCostsThatFrameAndNotTheHost) {
+    attach("r1", 5, 9);
+    open_road(1 << 20);
+    offer(1, 1);
+    const auto sent = links_.take();
+    ASSERT_TRUE(sent.back().by_datagrams);
+    links_.undelivered(sent.back());
+    offer(2, 2);
+    const auto next = links_.take();
+    EXPECT_THAT(roads(next), testing::ElementsAre(false));
+    EXPECT_EQ(next.back().message.sent_by_datagrams, 0u);
+    EXPECT_TRUE(links_.hosts().at(0).attached);
+    EXPECT_EQ(links_.hosts().at(0).counters.sent, 1u);
+    EXPECT_EQ(links_.hosts().at(0).counters.send_dropped, 1u);
+}
+
 }  // namespace
 }  // namespace vantage

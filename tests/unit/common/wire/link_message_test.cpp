@@ -93,6 +93,51 @@ TEST(LinkMessage, RigMessageRoundTrips) {
     EXPECT_EQ(decode_rig_message(encode(sent)).report_id, 23u);
 }
 
+TEST(LinkMessage, AnOfferOfDatagramsAndItsAnswerRoundTrip) {
+    RigMessage sent;
+    sent.rig = "rig-a";
+    sent.link = 2;
+    sent.counters.sent = 5;
+    sent.offer = {31, 5600, "a passphrase of this test"};
+    sent.sent_by_datagrams = 4;
+    sent.datagram_trouble = "a trouble";
+    const RigMessage got = decode_rig_message(encode(sent));
+    EXPECT_EQ(got.offer, sent.offer);
+    EXPECT_EQ(got.sent_by_datagrams, 4u);
+    EXPECT_EQ(got.datagram_trouble, "a trouble");
+    HostMessage answer;
+    answer.host_id = 1;
+    answer.datagrams = {31, "another trouble"};
+    EXPECT_EQ(decode_host_message(encode(answer)), answer);
+}
+
+TEST(LinkMessage, APassphraseIsNotAmongTheFirstBytesThatABugReportMayKeep) {
+    RigMessage sent;
+    sent.rig = "r";
+    sent.link = 1;
+    sent.health.program_version = "0.3.0";
+    sent.health.captured_hz = 25;
+    sent.offer = {31, 5600, "a passphrase of this test"};
+    const std::vector<std::byte> bytes = encode(sent);
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    EXPECT_GE(text.find(sent.offer.passphrase), 32u);
+    EXPECT_LT(text.find(sent.offer.passphrase), text.size());
+}
+
+TEST(LinkMessage, AMessageOfAnOlderEndHasNeitherOfferNorAnswer) {
+    wire::RigMessage rig;
+    rig.set_schema_version(wire_schema_version);
+    rig.set_rig("rig-a");
+    rig.set_link(5);
+    EXPECT_EQ(decode_rig_message(bytes_of(rig)).offer, DatagramOffer{});
+    wire::HostMessage host;
+    host.set_schema_version(wire_schema_version);
+    host.set_host_id(1);
+    host.set_credit_window(1);
+    host.set_rate_divisor(1);
+    EXPECT_EQ(decode_host_message(bytes_of(host)).datagrams, DatagramAnswer{});
+}
+
 TEST(LinkMessage, ARefusalNeedsNoLinkAndIsCutToItsLimit) {
     RigMessage sent;
     sent.rig = "rig-a";
@@ -117,7 +162,7 @@ TEST(LinkMessage, HostileHostMessagesAreRefused) {
     EXPECT_THAT(refusal([](auto& m) { m.set_schema_version(99); }), HasSubstr("version 99"));
     EXPECT_THAT(refusal([](auto& m) { m.clear_host_id(); }), HasSubstr("host id"));
     EXPECT_THAT(refusal([](auto& m) { m.clear_credit_window(); }), HasSubstr("credit window"));
-    EXPECT_THAT(refusal([](auto& m) { m.set_credit_window(max_credit_window + 1); }),
+    EXPECT_THAT(refusal([](auto& m) { m.set_credit_window(max_datagram_credit_window + 1); }),
                 HasSubstr("credit window"));
     EXPECT_THAT(refusal([](auto& m) { m.clear_rate_divisor(); }), HasSubstr("rate divisor"));
     EXPECT_THAT(refusal([](auto& m) { m.set_rate_divisor(max_rate_divisor + 1); }),
@@ -171,6 +216,24 @@ TEST(LinkMessage, HostileRigMessagesAreRefused) {
         HasSubstr("program version of 41"));
     EXPECT_THAT(refusal([](auto& m) { m.mutable_health()->set_program_version("\x1b[2J"); }),
                 HasSubstr("control characters"));
+    const auto offer = [&](std::uint64_t id, std::uint32_t port, const std::string& passphrase) {
+        return refusal([&](auto& m) {
+            m.mutable_datagrams()->set_id(id);
+            m.mutable_datagrams()->set_port(port);
+            m.mutable_datagrams()->set_passphrase(passphrase);
+        });
+    };
+    EXPECT_EQ(offer(1, 5600, ""), "");
+    EXPECT_EQ(offer(1, 65535, std::string(79, 'x')), "");
+    EXPECT_THAT(offer(0, 5600, ""), HasSubstr("without an id"));
+    EXPECT_THAT(offer(1, 0, ""), HasSubstr("port 0"));
+    EXPECT_THAT(offer(1, 65536, ""), HasSubstr("port 65536"));
+    EXPECT_THAT(offer(1, 5600, std::string(9, 'x')), HasSubstr("outside 10..79"));
+    EXPECT_THAT(offer(1, 5600, std::string(80, 'x')), HasSubstr("outside 10..79"));
+    EXPECT_THAT(offer(1, 5600, "0123456789\n"), HasSubstr("control characters"));
+    EXPECT_THAT(refusal([](auto& m) { m.set_sent_by_datagrams(1); }), HasSubstr("of 0 in all"));
+    EXPECT_THAT(refusal([](auto& m) { m.set_datagram_trouble(std::string(513, 'x')); }),
+                HasSubstr("beyond the limit"));
     EXPECT_THAT(refusal_of(decode_rig_message, {std::byte{0x12}, std::byte{0x7f}}),
                 HasSubstr("truncated"));
 }
