@@ -24,9 +24,6 @@ struct Background {
     std::vector<RigBackground> rigs;
 };
 
-/// The checksum of all numbers that place a rig's pixels in the world: "fnv1a64:" and 16 digits.
-std::string calibration_of(const DepthView& camera, cv::Size colour_size, cv::Size depth_size);
-
 /// The state of a rig's background, for operators.
 struct RigBackgroundState {
     std::string rig;

@@ -16,7 +16,11 @@ namespace vantage {
 
 /// Offset of the rigs' clock from UTC in seconds (see TimecodeClock); empty if the frame set has no
 /// rig.
-std::optional<int> tai_offset_s_of(const FrameSet& set);
+inline std::optional<int> tai_offset_s_of(const FrameSet& set) {
+    for (const FrameSet::Slot& slot : set.slots)
+        if (slot.frame) return slot.frame->sync.tai_offset_s;
+    return std::nullopt;
+}
 
 /// Computes the house time code of frame sets. `rate_hz` is the rate that the code counts: the
 /// pulse rate on the screen, the film's rate in a film.
@@ -25,7 +29,10 @@ class SetTimecode {
     SetTimecode(double pulse_rate_hz, double rate_hz) : pulses_(pulse_rate_hz), clock_(rate_hz) {}
 
     /// Returns an empty text for a frame set without rigs.
-    std::string of(const FrameSet& set) const;
+    std::string of(const FrameSet& set) const {
+        const std::optional<int> offset_s = tai_offset_s_of(set);
+        return offset_s ? clock_.at(pulses_.time_of(set.trigger_index), *offset_s) : std::string();
+    }
 
   private:
     PulseGrid pulses_;

@@ -15,7 +15,8 @@ namespace vantage {
 /// background that only one of its cameras sees. Where none is near it comes from pull and push.
 class DepthInpainting {
   public:
-    explicit DepthInpainting(const ShaderLibrary& library);
+    explicit DepthInpainting(const ShaderLibrary& library)
+        : inpaint_(library, "depth_inpaint.frag"), fill_(library, PullPush::Kind::depth) {}
 
     /// Draws into `closed` (r32f, the size of `depth_m`) the known depth and, with a negative sign,
     /// the inpainted depth.
@@ -25,9 +26,24 @@ class DepthInpainting {
     ///     is taken from pixels beside
     /// @param picture the rig's colours
     void close(const Texture& depth_m, const Texture& measured_m, const Texture& picture,
-               const Framebuffer& closed);
+               const Framebuffer& closed) {
+        const cv::Size size = depth_m.size();
+        Sized& sized = sized_[{size.width, size.height}];
+        sized.inpainted.resize(size);
+        sized.pyramid.resize(PullPush::Kind::depth, size, halvings);
+        Program& inpaint = inpaint_.use();
+        inpaint.input("depth_map", depth_m);
+        inpaint.input("measured", measured_m);
+        inpaint.input("picture", picture);
+        inpaint_.draw(sized.inpainted.target());
+        const Texture& inpainted = sized.inpainted.texture();
+        fill_.fill(inpainted, inpainted, sized.pyramid, closed);
+    }
 
   private:
+    /// The pyramid closes holes up to about 2^halvings pixels wide.
+    static constexpr std::size_t halvings = 6;
+
     struct Sized {
         DrawnTexture inpainted{TextureFormat::r32f};
         PullPush::Pyramid pyramid;

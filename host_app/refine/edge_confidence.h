@@ -15,7 +15,14 @@ class EdgeConfidence {
         : pass_(library, "edge_confidence.frag") {}
 
     /// Fills the surface's confidence() from its depth.
-    void judge(RigSurface& surface);
+    void judge(RigSurface& surface) {
+        surface.confidence().resize(surface.colour().size());
+        Program& program = pass_.use();
+        program.input("depth_map", surface.depth());
+        program.set("picture_size",
+                    Eigen::Vector2i(surface.colour().width_px(), surface.colour().height_px()));
+        pass_.draw(surface.confidence().target());
+    }
 
   private:
     FullscreenPass pass_;

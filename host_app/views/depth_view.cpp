@@ -4,6 +4,7 @@
 
 #include <Eigen/LU>
 
+#include "common/config/yaml/number_checksum.h"
 #include "host_app/views/projection.h"
 
 namespace vantage {
@@ -52,6 +53,18 @@ namespace {
 constexpr int samples_per_side = 12;
 
 }  // namespace
+
+std::string calibration_of(const DepthView& camera, cv::Size colour_size, cv::Size depth_size) {
+    NumberChecksum sum;
+    sum.add_rows(camera.K);
+    sum.add(camera.world_from_camera);
+    sum.add(camera.baseline_m);
+    sum.add(camera.doffs_px);
+    for (const int side :
+         {colour_size.width, colour_size.height, depth_size.width, depth_size.height})
+        sum.add(side);
+    return checksum_text(sum.hex());
+}
 
 SurfaceSamples surface_samples(const DepthView& view) {
     SurfaceSamples samples;

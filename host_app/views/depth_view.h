@@ -94,6 +94,9 @@ DepthView depth_view_of(const RigFrame& frame);
 std::vector<DepthView> depth_views_of(const FrameSet& set,
                                       const std::map<std::string, ColourCorrection>& colours);
 
+/// The checksum of all numbers that place a rig's pixels in the world: "fnv1a64:" and 16 digits.
+std::string calibration_of(const DepthView& camera, cv::Size colour_size, cv::Size depth_size);
+
 /// A few surface points of a view, as a summary of the places that it sees.
 struct SurfaceSamples {
     std::vector<Eigen::Vector3d> points_m;  ///< in world coordinates

@@ -1,12 +1,10 @@
-#include "host_app/foreground/motion/frame_between.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 #include <vector>
 
-#include "host_app/foreground/motion/surfaces.h"
+#include "host_app/foreground/motion/rig_motion.h"
 
 namespace vantage {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <future>
 
-#include "host_app/foreground/motion/frame_between.h"
 #include "host_app/foreground/motion/rig_agreement.h"
+#include "host_app/foreground/motion/rig_motion.h"
 
 namespace vantage {
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host_app/foreground/motion/surfaces.h"
-
 namespace vantage {
 namespace {
 

@@ -11,8 +11,8 @@
 
 #include "common/gl/context/egl_context.h"
 #include "common/image/image_file.h"
-#include "host_app/foreground/motion/frame_between.h"
 #include "host_app/foreground/motion/rig_agreement.h"
+#include "host_app/foreground/motion/rig_motion.h"
 #include "host_app/programme/view_painter.h"
 #include "host_app/view_sets/image_metrics.h"
 #include "host_app/views/depth_view.h"

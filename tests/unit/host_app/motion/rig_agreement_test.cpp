@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "host_app/foreground/motion/frame_between.h"
+#include "host_app/foreground/motion/rig_motion.h"
 #include "tests/unit/host_app/motion/moving_square.h"
 
 namespace vantage {

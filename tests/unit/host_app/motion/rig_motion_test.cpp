@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
-#include "host_app/foreground/motion/frame_between.h"
 #include "tests/unit/host_app/motion/moving_square.h"
 
 namespace vantage {
