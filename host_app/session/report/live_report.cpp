@@ -89,7 +89,12 @@ std::vector<std::string> worries_of(const RigStatus& status) {
     if (status.connected)
         if (std::string worry = tai_warning(status); !worry.empty())
             worries.push_back(std::move(worry));
+    if (status.connected && !status.datagram_trouble.empty()) worries.push_back(road_worry(status));
     return worries;
+}
+
+std::string road_worry(const RigStatus& status) {
+    return "its frames come over TCP because " + status.datagram_trouble;
 }
 
 std::vector<std::string> failures_of(const LiveReport& report) {

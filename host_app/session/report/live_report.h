@@ -132,8 +132,10 @@ std::string outages_of(const RigStatus& status);
 std::string counters_legend();
 
 /// Returns the faults of a connected rig that a technician should look at, in a few words each:
-/// heat, supply, clock.
+/// heat, supply, clock, network.
 std::vector<std::string> worries_of(const RigStatus& status);
+/// Says why the rig's frames do not come over SRT. Precondition: it has a datagram_trouble.
+std::string road_worry(const RigStatus& status);
 /// Returns only those of the computer: heat and supply.
 std::vector<std::string> computer_worries_of(const RigStatus& status);
 

@@ -53,8 +53,7 @@ std::string rig_remarks(const LiveReport& report) {
         if (const std::string pulses = pulse_text(rig.status.sync); !pulses.empty())
             text += fmt::format("{}: {}\n", rig.status.rig, pulses);
         if (!status.datagram_trouble.empty())
-            text += fmt::format("{}: its frames come over TCP because {}\n", status.rig,
-                                status.datagram_trouble);
+            text += fmt::format("{}: {}\n", status.rig, road_worry(status));
         if (!rig.status.last_error.empty())
             text +=
                 fmt::format("{}: the last fault was: {}\n", rig.status.rig, rig.status.last_error);

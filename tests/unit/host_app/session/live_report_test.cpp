@@ -46,6 +46,21 @@ TEST(LiveReport, ReportsHeatSupplyAndClocks) {
     EXPECT_THAT(worries_of(rig), IsEmpty()) << "its last report may no longer hold";
 }
 
+TEST(LiveReport, SaysWhyFramesDoNotComeOverSrt) {
+    RigStatus rig = good_rig();
+    rig.datagram_trouble = "SRT cannot connect to UDP port 5600";
+    const std::string sentence =
+        "its frames come over TCP because SRT cannot connect to UDP port 5600";
+    EXPECT_THAT(worries_of(rig), ElementsAre(sentence));
+    LiveReport report;
+    report.rigs.push_back({.status = rig});
+    EXPECT_THAT(to_text(report), HasSubstr("north: " + sentence));
+    EXPECT_EQ(to_json(report)["rigs"][0]["road"], "tcp");
+    EXPECT_EQ(to_json(report)["rigs"][0]["road_trouble"], rig.datagram_trouble);
+    rig.connected = false;
+    EXPECT_THAT(worries_of(rig), IsEmpty());
+}
+
 TEST(LiveReport, ReportsARigAtAnotherRateThanTheStage) {
     RigStatus rig = good_rig();
     rig.sync.rate_hz = 2;
