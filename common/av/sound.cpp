@@ -6,8 +6,6 @@
 namespace vantage {
 namespace {
 
-constexpr std::int64_t rate = sound_rate_hz;
-
 /// Catmull-Rom interpolation between the middle two of four samples.
 float between(float before, float a, float b, float after, float share) {
     const float slope_a = 0.5F * (b - before), slope_b = 0.5F * (after - a);
@@ -20,18 +18,20 @@ float between(float before, float a, float b, float after, float share) {
 std::int64_t sound_sample_at(TaiTime time) {
     const std::int64_t ns = to_ns(time);
     const std::int64_t seconds = ns / nanoseconds_per_second, rest = ns % nanoseconds_per_second;
-    return seconds * rate + (rest * rate + nanoseconds_per_second / 2) / nanoseconds_per_second;
+    return seconds * sound_rate_hz +
+           (rest * sound_rate_hz + nanoseconds_per_second / 2) / nanoseconds_per_second;
 }
 
 TaiTime time_of_sound(std::int64_t sample) {
-    return tai_from_ns(sample / rate * nanoseconds_per_second +
-                       sample % rate * nanoseconds_per_second / rate);
+    return tai_from_ns(sample / sound_rate_hz * nanoseconds_per_second +
+                       sample % sound_rate_hz * nanoseconds_per_second / sound_rate_hz);
 }
 
 std::int64_t SoundGrid::first_of(std::int64_t tick) const {
     // Dividing first keeps the products within 64 bits, so that the result is exact for years.
     const std::int64_t whole = tick / rate_.pulses, rest = tick % rate_.pulses;
-    return whole * rate_.seconds * rate + rest * rate_.seconds * rate / rate_.pulses;
+    return whole * rate_.seconds * sound_rate_hz +
+           rest * rate_.seconds * sound_rate_hz / rate_.pulses;
 }
 
 std::vector<float> stretched(std::span<const float> samples, std::size_t count) {

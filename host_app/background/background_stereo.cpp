@@ -28,7 +28,7 @@ constexpr Cost step_penalty = 10, jump_penalty = 256;
 constexpr float halving_difference = 25;
 /// Planes that are tried at each pixel beside the depths, at most, and how far their points may be
 /// off, in distances of two depths.
-constexpr std::size_t max_planes = 12;
+constexpr std::size_t most_planes_tried = 12;
 constexpr double plane_tolerance = 0.75;
 /// Distance of two depths that are tried, px in the nearest other rig's picture.
 constexpr double step_px = 1;
@@ -121,7 +121,7 @@ Cost jump_between(const cv::Vec4b& a, const cv::Vec4b& b) {
 
 /// The depths next to each plane at a pixel, -1 where there is none.
 struct PlaneDepths {
-    std::array<int, max_planes> at{};
+    std::array<int, most_planes_tried> at{};
     PlaneDepths(const DepthLabels& labels, int y, int x) {
         for (std::size_t plane = 0; plane < labels.planes.size(); ++plane)
             at[plane] = labels.nearest_to(labels.of_plane(plane, y, x));
@@ -296,7 +296,7 @@ std::vector<ScenePlane> planes_in(std::span<const BackgroundView> views,
             maps.push_back({views[i].K, views[i].world_from_camera, &depths_m[i],
                             plane_tolerance * searches[i].labels.step});
     if (maps.empty()) return {};
-    return planes_of(maps, max_planes, {&floor_plane, 1});
+    return planes_of(maps, most_planes_tried, {&floor_plane, 1});
 }
 
 std::optional<DepthImage> matched(std::span<const BackgroundView> views, std::size_t which,
