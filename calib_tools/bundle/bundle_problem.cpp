@@ -138,8 +138,7 @@ Pose changed(const Pose& pose, const BundleProblem::Change& change) {
 }
 
 BundleProblem::BundleProblem(const Bundle& bundle, double huber_px)
-    : bundle_(bundle),
-      lenses_(bundle.cameras.size()),
+    : lenses_(bundle.cameras.size()),
       camera_poses_(bundle.cameras.size(), Change{}),
       rig_poses_(bundle.rigs.size(), Change{}),
       face_poses_(bundle.faces.size(), Change{}),

@@ -40,7 +40,6 @@ class BundleProblem {
   private:
     double* used(double* block) { return problem_->HasParameterBlock(block) ? block : nullptr; }
 
-    const Bundle& bundle_;
     std::vector<std::array<double, lens_parameter_count>> lenses_;
     int prior_count_ = 0;
     std::vector<Change> camera_poses_, rig_poses_, face_poses_, board_poses_;

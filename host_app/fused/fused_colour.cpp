@@ -26,7 +26,7 @@ namespace {
 /// The kinds of pixels, stored as depths for the depth test; finished pixels lie below the first.
 constexpr float inner_kind = 0.25f, empty_kind = 0.5f, edge_kind = 0.75f;
 
-const char* const fragment = "fused_colour.frag";
+const char* const colour_shader = "fused_colour.frag";
 
 /// Sets the alphas that mark places that no rig sees now.
 void set_alphas(Program& program) {
@@ -38,10 +38,10 @@ void set_alphas(Program& program) {
 
 FusedColour::FusedColour(const ShaderLibrary& library)
     : kinds_pass_(library, "fused_kinds.frag"),
-      first_rigs_(library, fragment, same_surface_share, {{"EDGES", "0"}, {"FIRST_RIGS_ONLY", "1"}},
-                  1, 3),
-      inner_(library, fragment, same_surface_share, {{"EDGES", "0"}}),
-      edges_(library, fragment, same_surface_share, {{"EDGES", "1"}}),
+      first_rigs_(library, colour_shader, same_surface_share,
+                  {{"EDGES", "0"}, {"FIRST_RIGS_ONLY", "1"}}, 1, 3),
+      inner_(library, colour_shader, same_surface_share, {{"EDGES", "0"}}),
+      edges_(library, colour_shader, same_surface_share, {{"EDGES", "1"}}),
       plain_(library, "fused_plain.frag", same_surface_share),
       on_baked_(library, "baked_colour.frag", same_surface_share) {}
 

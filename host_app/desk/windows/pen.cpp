@@ -149,9 +149,9 @@ float Pen::mark(float x, float y, Mark mark) const {
 
 float Pen::badge(float x, float y, float height, std::string_view words,
                  const ImVec4& colour) const {
-    const float pad = 0.5f * em(), width = width_of(words, true) + 2 * pad;
+    const float inset = 0.5f * em(), width = width_of(words, true) + 2 * inset;
     fill({x, y, width, height}, colour, 0.2f * em());
-    text(x + pad, y + 0.5f * (height - em()), palette::on_badge, words, true);
+    text(x + inset, y + 0.5f * (height - em()), palette::on_badge, words, true);
     return x + width + 0.5f * em();
 }
 

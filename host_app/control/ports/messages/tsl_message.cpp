@@ -188,8 +188,11 @@ void TslStream::stray() {
 }
 
 std::optional<std::vector<TslDisplay>> decode_tsl(std::span<const std::byte> datagram) {
-    constexpr unsigned dle = 0xfe, stx = 0x02;
-    if (datagram.size() > 1 && byte_at(datagram, 0) == dle && byte_at(datagram, 1) == stx)
+    const auto begins_with = [&](char first, char second) {
+        return datagram.size() > 1 && datagram[0] == static_cast<std::byte>(first) &&
+               datagram[1] == static_cast<std::byte>(second);
+    };
+    if (begins_with(dle, stx))
         if (auto displays = decode_wrapped(datagram)) return displays;
     std::vector<TslDisplay> all;
     bool is_any = false;
