@@ -37,6 +37,10 @@ bool SocketAddress::is_any() const {
                                 : v4_of(*this).sin_addr.s_addr == htonl(INADDR_ANY);
 }
 
+std::uint16_t SocketAddress::port() const {
+    return ntohs(family() == AF_INET6 ? v6_of(*this).sin6_port : v4_of(*this).sin_port);
+}
+
 SocketAddress SocketAddress::with_port(std::uint16_t port) const {
     SocketAddress address = *this;
     if (family() == AF_INET6)
@@ -56,6 +60,15 @@ std::string SocketAddress::text() const {
     char port[NI_MAXSERV] = "?";
     getnameinfo(get(), size, nullptr, 0, port, sizeof port, NI_NUMERICSERV | NI_DGRAM);
     return fmt::format("{}:{}", host(), port);
+}
+
+std::optional<SocketAddress> peer_of(int socket) {
+    SocketAddress address;
+    address.size = sizeof address.bytes;
+    auto* const bytes = reinterpret_cast<sockaddr*>(&address.bytes);
+    if (::getpeername(socket, bytes, &address.size) != 0) return std::nullopt;
+    if (address.family() != AF_INET && address.family() != AF_INET6) return std::nullopt;
+    return address;
 }
 
 std::vector<SocketAddress> resolve_all(std::string host, int port, const std::string& what) {

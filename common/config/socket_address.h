@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct SocketAddress {
     bool is_multicast() const;
     /// 0.0.0.0 or [::].
     bool is_any() const;
+    std::uint16_t port() const;
     /// The same address with another port.
     SocketAddress with_port(std::uint16_t port) const;
     /// "127.0.0.1", "[::1]".
@@ -27,6 +29,9 @@ struct SocketAddress {
     /// "127.0.0.1:5600", "[::1]:5600".
     std::string text() const;
 };
+
+/// The other end of a connected socket; empty if it has left, or is none on a network.
+std::optional<SocketAddress> peer_of(int socket);
 
 /// Returns every address of a host, in the order of the system's resolver. `host` is a name or an
 /// address, with or without brackets. Throws Error for a name that does not resolve; its sentence

@@ -15,9 +15,10 @@ namespace {
 struct PacketHead {
     std::uint32_t number = 0, packet = 0, packets = 0;
 };
-constexpr std::size_t head_bytes = 3 * sizeof(std::uint32_t);
+/// Of a number in a packet's head and before a part.
+constexpr std::size_t number_bytes = sizeof(std::uint32_t);
+constexpr std::size_t head_bytes = 3 * number_bytes;
 constexpr std::size_t content_bytes = packet_bytes - head_bytes;
-constexpr std::size_t size_bytes = sizeof(std::uint32_t);
 constexpr std::size_t seal_bytes = crypto_generichash_BYTES;
 
 void put(std::byte* to, std::uint32_t value) {
@@ -45,7 +46,7 @@ std::array<std::byte, seal_bytes> seal_of(std::span<const std::byte> content,
 }  // namespace
 
 std::size_t message_bytes_of(std::size_t bytes_of_parts) {
-    return frame_message_parts * size_bytes + bytes_of_parts + seal_bytes;
+    return frame_message_parts * number_bytes + bytes_of_parts + seal_bytes;
 }
 
 std::size_t packets_of(std::size_t message_bytes) {
@@ -58,7 +59,7 @@ std::vector<std::byte> join_parts(const FrameParts& parts, std::string_view pass
     std::vector<std::byte> message;
     message.reserve(message_bytes_of(bytes_of_parts));
     for (const auto& part : parts) {
-        std::array<std::byte, size_bytes> size;
+        std::array<std::byte, number_bytes> size;
         put(size.data(), static_cast<std::uint32_t>(part.size()));
         message.insert(message.end(), size.begin(), size.end());
         message.insert(message.end(), part.begin(), part.end());
@@ -77,11 +78,11 @@ FrameParts split_message(std::span<const std::byte> message, std::string_view pa
         fail("a frame came as datagrams whose seal is not this rig's");
     FrameParts parts;
     for (auto& part : parts) {
-        const std::size_t size = rest.size() < size_bytes ? 0 : get(rest.data());
-        if (rest.size() < size_bytes || rest.size() - size_bytes < size)
+        const std::size_t size = rest.size() < number_bytes ? 0 : get(rest.data());
+        if (rest.size() < number_bytes || rest.size() - number_bytes < size)
             fail("a frame came as datagrams with parts beyond its {} bytes", message.size());
-        part = rest.subspan(size_bytes, size);
-        rest = rest.subspan(size_bytes + size);
+        part = rest.subspan(number_bytes, size);
+        rest = rest.subspan(number_bytes + size);
     }
     if (!rest.empty())
         fail("a frame came as datagrams with {} bytes behind its parts", rest.size());
@@ -93,11 +94,11 @@ bool cut_message(std::span<const std::byte> message, std::uint32_t number,
     const auto packets = static_cast<std::uint32_t>(packets_of(message.size()));
     std::array<std::byte, packet_bytes> packet;
     put(packet.data(), number);
-    put(packet.data() + 2 * size_bytes, packets);
+    put(packet.data() + 2 * number_bytes, packets);
     for (std::uint32_t i = 0; i < packets; ++i) {
         const std::span<const std::byte> content = message.subspan(
             i * content_bytes, std::min(content_bytes, message.size() - i * content_bytes));
-        put(packet.data() + size_bytes, i);
+        put(packet.data() + number_bytes, i);
         std::copy(content.begin(), content.end(), packet.begin() + head_bytes);
         if (!send(std::span(packet).first(head_bytes + content.size()))) return false;
     }
@@ -108,8 +109,8 @@ std::optional<std::vector<std::byte>> FrameJoiner::take(std::span<const std::byt
     static const std::size_t most_packets = packets_of(max_datagram_message_bytes);
     if (packet.size() <= head_bytes || packet.size() > packet_bytes)
         fail("a datagram of {} bytes came, which is not part of a frame", packet.size());
-    const PacketHead head{get(packet.data()), get(packet.data() + size_bytes),
-                          get(packet.data() + 2 * size_bytes)};
+    const PacketHead head{get(packet.data()), get(packet.data() + number_bytes),
+                          get(packet.data() + 2 * number_bytes)};
     if (head.packet == 0) {
         number_ = head.number;
         packets_ = head.packets;

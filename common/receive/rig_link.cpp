@@ -47,16 +47,6 @@ std::shared_ptr<const PackedFrame> frame_of(const std::vector<std::span<const st
     return frame;
 }
 
-/// The other end of a socket of ZeroMQ's; empty if it has closed it meanwhile.
-std::optional<SocketAddress> peer_of(int socket) {
-    SocketAddress address;
-    address.size = sizeof address.bytes;
-    auto* const bytes = reinterpret_cast<sockaddr*>(&address.bytes);
-    if (::getpeername(socket, bytes, &address.size) != 0) return std::nullopt;
-    if (address.family() != AF_INET && address.family() != AF_INET6) return std::nullopt;
-    return address;
-}
-
 /// Measured by the kernel; 0: unknown.
 std::chrono::microseconds round_trip_of(int socket) {
     tcp_info info{};
@@ -356,15 +346,15 @@ void RigLink::tick(const Request& request, MonotonicTime now) {
     message.host_id = host_id_;
     message.link = account_.link();
     message.handled = account_.handled(request.unhandled);
-    const bool by_datagrams = datagrams_ && datagrams_->state().is_open;
-    message.credit_window = credit_window(round_trip_, rate_hz, by_datagrams);
+    const DatagramLink::State road = datagrams_ ? datagrams_->state() : DatagramLink::State();
+    message.credit_window = credit_window(round_trip_, rate_hz, road.is_open);
     message.streaming = request.streaming;
     message.rate_divisor = request.rate_divisor;
     message.first_pulse = request.first_pulse;
     message.raw_pairs = request.raw_pairs;
     message.fetch = request.fetch;
     message.report_id = request.report_id;
-    if (datagrams_) message.datagrams = {datagrams_->offer().id, datagrams_->state().trouble};
+    if (datagrams_) message.datagrams = {datagrams_->offer().id, road.trouble};
     if (now >= next_heartbeat_) own_tai_offset_s_ = read_kernel_clock().tai_offset_s;
     message.tai_offset_s = own_tai_offset_s_;
     if (now < next_heartbeat_ && message == told_) return;

@@ -11,6 +11,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/config/socket_address.h"
 #include "common/wire/random_id.h"
 
 namespace vantage {
@@ -32,12 +33,10 @@ constexpr int watched_events =
 
 /// The address of the other end; empty if it has left, or if its descriptor was reused.
 std::string peer_address(int connection) {
-    sockaddr_storage bytes{};
-    socklen_t size = sizeof bytes;
+    const std::optional<SocketAddress> peer = peer_of(connection);
     char host[NI_MAXHOST] = "";
-    if (::getpeername(connection, reinterpret_cast<sockaddr*>(&bytes), &size) != 0 ||
-        ::getnameinfo(reinterpret_cast<const sockaddr*>(&bytes), size, host, sizeof host, nullptr,
-                      0, NI_NUMERICHOST) != 0)
+    if (!peer ||
+        ::getnameinfo(peer->get(), peer->size, host, sizeof host, nullptr, 0, NI_NUMERICHOST) != 0)
         return "";
     return host;
 }

@@ -17,12 +17,6 @@ namespace {
 /// Handshakes that wait to be accepted.
 constexpr int waiting_connections = 16;
 
-std::uint16_t port_of(const SocketAddress& address) {
-    return ntohs(address.family() == AF_INET6
-                     ? reinterpret_cast<const sockaddr_in6*>(&address.bytes)->sin6_port
-                     : reinterpret_cast<const sockaddr_in*>(&address.bytes)->sin_port);
-}
-
 /// 256 bits.
 std::string new_passphrase() {
     std::string text;
@@ -76,7 +70,7 @@ int DatagramServer::listen_at(const SocketAddress& address, const std::string& o
             "choose another port in stream.bind",
             address.text(), option, reason);
     }
-    if (port_ == 0) port_ = port_of(bound_srt_address(listener));
+    if (port_ == 0) port_ = bound_srt_address(listener).port();
     return listener;
 }
 

@@ -22,7 +22,8 @@ constexpr int idle_limit_ms = 3000;
 constexpr int connect_limit_ms = 3000;
 /// AES-128.
 constexpr int key_bytes = 16;
-/// What a packet takes in SRT's buffers: that of Ethernet without the headers of IP and UDP.
+/// SRT's buffers count every packet as the largest one: an Ethernet frame of 1500 bytes without the
+/// headers of IP and UDP.
 constexpr int buffer_bytes_a_packet = 1472;
 
 /// SRT is never ended: FFmpeg's outputs use the same library.

@@ -1,4 +1,5 @@
-// What a network does to a rig's frames by datagrams, and when they go over TCP instead.
+// A rig sends frames over SRT through a network that loses, damages, reorders or blocks datagrams.
+// Tests that the frames arrive, or go over TCP instead, and that each is counted.
 #include <chrono>
 #include <memory>
 #include <string>

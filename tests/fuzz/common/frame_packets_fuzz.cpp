@@ -25,7 +25,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             if (message->size() > max_datagram_message_bytes + packet_bytes) std::abort();
             expect_result_or_error([&] {
                 const FrameParts parts = split_message(*message, passphrase);
-                // What is understood is what was sealed.
+                // The parts of an accepted message make the same message again.
                 if (join_parts(parts, passphrase) != *message) std::abort();
             });
         });

@@ -188,11 +188,8 @@ void TslStream::stray() {
 }
 
 std::optional<std::vector<TslDisplay>> decode_tsl(std::span<const std::byte> datagram) {
-    const auto begins_with = [&](char first, char second) {
-        return datagram.size() > 1 && datagram[0] == static_cast<std::byte>(first) &&
-               datagram[1] == static_cast<std::byte>(second);
-    };
-    if (begins_with(dle, stx))
+    if (datagram.size() > 1 && datagram[0] == static_cast<std::byte>(dle) &&
+        datagram[1] == static_cast<std::byte>(stx))
         if (auto displays = decode_wrapped(datagram)) return displays;
     std::vector<TslDisplay> all;
     bool is_any = false;
