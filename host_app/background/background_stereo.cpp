@@ -275,49 +275,88 @@ OtherView seen_from(const BackgroundView& view, const ColourImage& right) {
     return {other_from_pixel(camera, view).cast<float>(), finer(right), {}};
 }
 
-/// The other rigs that a rig is compared with, and the depths that are tried before planes are
-/// known.
-struct Search {
-    std::vector<std::size_t> others;
-    DepthLabels labels;  ///< no depths: there is nothing to match
+/// What is matched: the views, what is read of their pictures, and the depths that are tried before
+/// planes are known.
+struct Scene {
+    std::vector<BackgroundView> views;
+    std::vector<ColourImage> rights;  ///< of the views' sizes; empty: there is none
+    std::vector<cv::Mat4b> fine;
+    std::vector<std::vector<std::size_t>> others;  ///< that a view is compared with
+    std::vector<DepthLabels> labels;               ///< no depths: there is nothing to match
 
-    Search(std::span<const BackgroundView> views, std::size_t which)
-        : others(others_of(views, which)),
-          labels(others.empty() ? DepthLabels{} : labels_of(views[which], views[others.front()])) {}
+    Scene(std::vector<BackgroundView> of, std::vector<ColourImage> of_rights)
+        : views(std::move(of)), rights(std::move(of_rights)) {
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            fine.push_back(finer(views[i].colour));
+            others.push_back(others_of(views, i));
+            labels.push_back(others[i].empty() ? DepthLabels{}
+                                               : labels_of(views[i], views[others[i].front()]));
+        }
+    }
 };
 
+BackgroundView halved(const BackgroundView& whole) {
+    BackgroundView view = whole;
+    const cv::Size size((whole.colour.cols + 1) / 2, (whole.colour.rows + 1) / 2);
+    const double scale_x = 1.0 * size.width / whole.colour.cols,
+                 scale_y = 1.0 * size.height / whole.colour.rows;
+    view.K = scaled_intrinsics(whole.K, scale_x, scale_y);
+    view.doffs_px *= scale_x;
+    cv::Mat colour, depth_m;
+    cv::resize(whole.colour, colour, size, 0, 0, cv::INTER_AREA);
+    view.colour = ColourImage(colour);
+    // Mixed with an unknown colour, a colour is unknown too.
+    for (cv::Vec4b& pixel : view.colour)
+        if (pixel[3] < 255) pixel[3] = 0;
+    cv::resize(whole.depth_m, depth_m, size, 0, 0, cv::INTER_NEAREST);
+    view.depth_m = DepthImage(depth_m);
+    return view;
+}
+
+Scene scene_of(std::span<const BackgroundView> views, MatchedSize size) {
+    std::vector<BackgroundView> matched;
+    std::vector<ColourImage> rights;
+    for (const BackgroundView& view : views) {
+        rights.push_back(right_of(view));
+        matched.push_back(size == MatchedSize::half ? halved(view) : view);
+        ColourImage& right = rights.back();
+        if (right.empty() || right.size() == matched.back().colour.size()) continue;
+        cv::Mat sized;
+        cv::resize(right, sized, matched.back().colour.size(), 0, 0, cv::INTER_AREA);
+        right = ColourImage(sized);
+    }
+    return {std::move(matched), std::move(rights)};
+}
+
 /// The planes that the matched depths of all rigs show.
-std::vector<ScenePlane> planes_in(std::span<const BackgroundView> views,
-                                  std::span<const Search> searches,
-                                  std::span<const DepthImage> depths_m) {
+std::vector<ScenePlane> planes_in(const Scene& scene, std::span<const DepthImage> depths_m) {
     std::vector<DepthMapView> maps;
     for (std::size_t i = 0; i < depths_m.size(); ++i)
-        if (searches[i].labels.depths > 0)
-            maps.push_back({views[i].K, views[i].world_from_camera, &depths_m[i],
-                            plane_tolerance * searches[i].labels.step});
+        if (scene.labels[i].depths > 0)
+            maps.push_back({scene.views[i].K, scene.views[i].world_from_camera, &depths_m[i],
+                            plane_tolerance * scene.labels[i].step});
     if (maps.empty()) return {};
     return planes_of(maps, most_planes_tried, {&floor_plane, 1});
 }
 
-std::optional<DepthImage> matched(std::span<const BackgroundView> views, std::size_t which,
-                                  const Search& search, std::span<const cv::Mat4b> fine,
-                                  const ColourImage& right_picture,
+/// `inverse_depths` of all views; empty in the first pass.
+std::optional<DepthImage> matched(const Scene& scene, std::size_t which,
                                   std::span<const cv::Mat2f> inverse_depths,
                                   std::span<const ScenePlane> planes, const std::stop_token& stop) {
-    const BackgroundView& view = views[which];
-    DepthLabels labels = search.labels;
+    const BackgroundView& view = scene.views[which];
+    DepthLabels labels = scene.labels[which];
     if (labels.depths == 0) return DepthImage(view.colour.size(), 0.0f);
     std::vector<OtherView> others;
-    others.reserve(search.others.size());
-    for (const std::size_t i : search.others)
-        others.push_back({other_from_pixel(views[i], view).cast<float>(), fine[i],
+    others.reserve(scene.others[which].size());
+    for (const std::size_t i : scene.others[which])
+        others.push_back({other_from_pixel(scene.views[i], view).cast<float>(), scene.fine[i],
                           inverse_depths.empty() ? cv::Mat2f() : inverse_depths[i]});
     for (const ScenePlane& plane : planes)
         labels.planes.push_back(
             inverse_depth_of(plane, view.K, view.world_from_camera).transpose().cast<float>());
     labels.has_floor = !planes.empty() && planes.front() == floor_plane;
     std::optional<OtherView> right;
-    if (!right_picture.empty()) right = seen_from(view, right_picture);
+    if (!scene.rights[which].empty()) right = seen_from(view, scene.rights[which]);
     const CostVolume costs = smoothed(swept(view, others, right, labels, stop), view, labels, stop);
     CostVolume sums(costs.size(), costs.labels());
     walk_columns(costs, view.colour, labels, sums, true, stop);
@@ -331,29 +370,28 @@ std::optional<DepthImage> matched(std::span<const BackgroundView> views, std::si
 }  // namespace
 
 std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const BackgroundView> views,
+                                                         MatchedSize size,
                                                          const std::stop_token& stop) {
-    std::vector<cv::Mat4b> fine;
-    std::vector<ColourImage> rights;
-    std::vector<Search> searches;
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        fine.push_back(finer(views[i].colour));
-        rights.push_back(right_of(views[i]));
-        searches.emplace_back(views, i);
-    }
+    const Scene scene = scene_of(views, size);
     std::vector<DepthImage> depths_m;
     for (int pass = 0; pass < 2; ++pass) {
         std::vector<cv::Mat2f> inverse_depths;
         inverse_depths.reserve(depths_m.size());
         for (const DepthImage& depth_m : depths_m)
             inverse_depths.push_back(inverse_depths_of(depth_m));
-        const std::vector<ScenePlane> planes = planes_in(views, searches, depths_m);
+        const std::vector<ScenePlane> planes = planes_in(scene, depths_m);
         depths_m.clear();
         for (std::size_t i = 0; i < views.size(); ++i) {
-            std::optional<DepthImage> depth_m =
-                matched(views, i, searches[i], fine, rights[i], inverse_depths, planes, stop);
+            std::optional<DepthImage> depth_m = matched(scene, i, inverse_depths, planes, stop);
             if (!depth_m) return std::nullopt;
             depths_m.push_back(std::move(*depth_m));
         }
+    }
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        if (depths_m[i].size() == views[i].colour.size()) continue;
+        cv::Mat sized;
+        cv::resize(depths_m[i], sized, views[i].colour.size(), 0, 0, cv::INTER_NEAREST);
+        depths_m[i] = DepthImage(sized);
     }
     return depths_m;
 }

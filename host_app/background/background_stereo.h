@@ -29,6 +29,11 @@ struct BackgroundView {
     double doffs_px = 0;                     ///< their cx less that of `colour`, px of `colour`
 };
 
+enum class MatchedSize {
+    half,   ///< an eighth of the time, with errors between those of the matchers and of `whole`
+    whole,  ///< the views' own
+};
+
 /// Background stereo: multi-view stereo over the backgrounds of several rigs. A stereo rig's
 /// baseline is short and its matcher works in real time; the background stands still, its colours
 /// are free of noise, and other rigs see it from metres to the side. So every depth of the stage is
@@ -44,6 +49,7 @@ struct BackgroundView {
 /// rig
 ///     stands farther away than twice its baseline. Nothing if `stop` was requested.
 std::optional<std::vector<DepthImage>> match_backgrounds(std::span<const BackgroundView> views,
+                                                         MatchedSize size,
                                                          const std::stop_token& stop = {});
 
 }  // namespace vantage

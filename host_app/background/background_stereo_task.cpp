@@ -7,9 +7,10 @@
 
 namespace vantage {
 
-void BackgroundStereoTask::begin(std::vector<BackgroundView> views, Manner manner) {
-    auto match = [views = std::move(views), stop = stop_.get_token()] {
-        return match_backgrounds(views, stop);
+void BackgroundStereoTask::begin(std::vector<BackgroundView> views, MatchedSize size,
+                                 Manner manner) {
+    auto match = [views = std::move(views), size, stop = stop_.get_token()] {
+        return match_backgrounds(views, size, stop);
     };
     if (manner == Manner::when_waited_for)
         result_ = std::async(std::launch::deferred, std::move(match));

@@ -25,7 +25,7 @@ class BackgroundStereoTask {
 
     bool is_under_way() const { return result_.valid(); }
     /// Starts match_backgrounds(). Precondition: no run is under way.
-    void begin(std::vector<BackgroundView> views, Manner manner);
+    void begin(std::vector<BackgroundView> views, MatchedSize size, Manner manner);
     /// Returns the result of match_backgrounds(), once; nothing before it is ready. With `waits`,
     /// waits until it is.
     std::optional<std::vector<DepthImage>> take(bool waits = false);

@@ -37,6 +37,9 @@ constexpr float own_penalty = 50, own_reach_px = 2;
 constexpr Cost no_plane_penalty = 4, no_floor_penalty = 6;
 /// Cost of a plane where it is not before the camera, or outside the range.
 constexpr Cost not_there = 1000;
+/// Pixels are swept by blocks of this size: what they read of other pictures stays in the
+/// processor's cache.
+constexpr int block_px = 16;
 /// Costs are averaged over 3x3 pixels; mean difference (0..255) at which a weight falls to 1/e.
 constexpr float colour_falloff = 15;
 
@@ -286,15 +289,21 @@ CostVolume swept(const BackgroundView& view, std::span<const OtherView> others,
     CostVolume costs(view.colour.size(), labels.count());
     PixelSweep sweep(labels);
     const cv::Mat1f texture = texture_of(view.colour);
-    for (int y = 0; y < view.colour.rows && !stop.stop_requested(); ++y)
-        for (int x = 0; x < view.colour.cols; ++x) {
-            sweep.begin();
-            if (view.colour(y, x)[3] > 0) {
-                for (const OtherView& other : others)
-                    sweep.add_other(other, {x, y}, view.colour(y, x), texture(y, x));
-                if (right) sweep.add_right(*right, {x, y}, view.colour(y, x));
-            }
-            sweep.end(costs.at(y, x));
+    const auto sweep_pixel = [&](int y, int x) {
+        sweep.begin();
+        if (view.colour(y, x)[3] > 0) {
+            for (const OtherView& other : others)
+                sweep.add_other(other, {x, y}, view.colour(y, x), texture(y, x));
+            if (right) sweep.add_right(*right, {x, y}, view.colour(y, x));
+        }
+        sweep.end(costs.at(y, x));
+    };
+    const cv::Rect picture({0, 0}, view.colour.size());
+    for (int top = 0; top < picture.height && !stop.stop_requested(); top += block_px)
+        for (int left = 0; left < picture.width; left += block_px) {
+            const cv::Rect block = picture & cv::Rect(left, top, block_px, block_px);
+            for (int y = block.y; y < block.br().y; ++y)
+                for (int x = block.x; x < block.br().x; ++x) sweep_pixel(y, x);
         }
     return costs;
 }

@@ -18,11 +18,13 @@ constexpr double model_period_s = 0.5, improvement_period_s = 0.8;
 /// Time before a rig's best model is refined again: the first time, and doubled each time up to the
 /// longest, since a background that stands still is soon known as well as it can be.
 constexpr double first_model_rest_s = 1, longest_model_rest_s = 12;
-/// Time from the first learning to background stereo, and between two runs of it: the first time,
-/// and doubled each time up to the longest, since results for a still background hardly change.
-constexpr double learnt_before_match_s = 2.5, first_match_rest_s = 5, longest_match_rest_s = 80;
-/// Instants that a background must be learnt from before it is baked: earlier it may still hold
-/// performers.
+/// Time from the first learning to background stereo in half the size, from its end to the first
+/// run in whole size, and between two of these: the first time, and doubled each time up to the
+/// longest, since results for a still background hardly change.
+constexpr double learnt_before_match_s = 1.5, whole_match_rest_s = 1, first_match_rest_s = 5,
+                 longest_match_rest_s = 80;
+/// Instants that a background must be learnt from before it is matched and baked: earlier it may
+/// still hold performers.
 constexpr int baked_from = 5;
 /// Instants after which a rough model is made once more, if none was refined until then: it knows
 /// places that performers have left meanwhile.
@@ -256,7 +258,7 @@ bool StagedPreparer::match_a_step(BackgroundStereoTask::Manner manner) {
         if (now_s_ < match_due_s_) return false;
         Matched next;
         for (RigHistory* rig : rigs_.shown())
-            if (rig->learnt_instants() > 0) next.rigs.push_back(rig);
+            if (rig->learnt_instants() >= baked_from) next.rigs.push_back(rig);
         if (next.rigs.size() < 2) return false;
         matched_ = std::move(next);
     }
@@ -268,15 +270,19 @@ bool StagedPreparer::match_a_step(BackgroundStereoTask::Manner manner) {
     matched_->sets.push_back(BackgroundModel::picture(*rig));
     matched_->depth_sizes.push_back(rig->depth().size());
     if (matched_->sets.size() < matched_->rigs.size()) return true;
-    matching_.begin(matched_->sets, manner);
+    matching_.begin(matched_->sets, matched_size_, manner);
     return false;
 }
 
 void StagedPreparer::take_match(std::span<const DepthImage> depths_m) {
     const std::optional<Matched> matched = std::exchange(matched_, std::nullopt);
     if (!matched) return;
-    match_due_s_ = now_s_ + match_rest_s_;
-    match_rest_s_ = std::min(2 * match_rest_s_, longest_match_rest_s);
+    if (std::exchange(matched_size_, MatchedSize::whole) == MatchedSize::half) {
+        match_due_s_ = now_s_ + whole_match_rest_s;
+    } else {
+        match_due_s_ = now_s_ + match_rest_s_;
+        match_rest_s_ = std::min(2 * match_rest_s_, longest_match_rest_s);
+    }
     for (std::size_t i = 0; i < depths_m.size(); ++i) {
         RigHistory* rig = matched->rigs[i];
         if (!rigs_.has_learnt(rig) || rig->depth().size() != matched->depth_sizes[i]) continue;
@@ -295,6 +301,7 @@ void StagedPreparer::make_model_due(RigHistory& rig) {
 
 void StagedPreparer::match_anew(double due_s) {
     matched_.reset();
+    matched_size_ = MatchedSize::half;
     match_due_s_ = due_s;
     match_rest_s_ = first_match_rest_s;
 }

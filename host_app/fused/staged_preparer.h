@@ -127,6 +127,7 @@ class StagedPreparer final : public InstantPreparer, private BackgroundAccess {
     std::optional<Matched> matched_;
     BackgroundStereoTask matching_;
     double match_due_s_ = 0, match_rest_s_ = 0;
+    MatchedSize matched_size_ = MatchedSize::half;  ///< of the run in progress or the next one
     BackgroundModel sets_;
     ForegroundDepth performers_;
     MultiViewRefinement refinement_;

@@ -32,6 +32,10 @@ namespace {
 /// Of a good camera, in grey levels; the demo's have none.
 constexpr double noise_sigma = 1;
 
+/// Seconds since the start between which the pictures are counted apart, since the background is
+/// learnt meanwhile.
+constexpr std::array<double, 8> spans_s = {0, 1, 2, 5, 10, 20, 40, 3600};
+
 struct Shown {
     ColourImage picture;
     CameraState camera;
@@ -125,6 +129,18 @@ ColourImage truth_of(VirtualStage& stage, const Shown& shown, TaiTime time) {
         .colour;
 }
 
+/// The fidelity of the pictures of each span of time.
+std::string along_time_table(std::span<const Fidelity> spans) {
+    std::string table =
+        "| seconds since the start | PSNR dB | SSIM | outlier pixels |\n| --- | --- | --- | --- "
+        "|\n";
+    for (std::size_t i = 0; i < spans.size(); ++i)
+        if (spans[i].pictures() > 0)
+            table += fmt::format("| from {:g} | {:.2f} | {:.3f} | {:.1f} % |\n", spans_s[i],
+                                 spans[i].psnr_db(), spans[i].ssim(), 100 * spans[i].outliers());
+    return table + "\n";
+}
+
 }  // namespace
 
 std::string played_table(const PlayedTruth& wanted) {
@@ -141,9 +157,14 @@ std::string played_table(const PlayedTruth& wanted) {
     constexpr std::size_t pictures_of_strip = 5;
     const std::size_t every = std::max<std::size_t>(
         1, (played.shown.size() - std::min(first, played.shown.size())) / pictures_of_strip);
-    for (std::size_t i = first; i < played.shown.size(); ++i) {
+    std::array<Fidelity, spans_s.size() - 1> spans;
+    for (std::size_t i = 0; i < played.shown.size(); ++i) {
         const Shown& shown = played.shown[i];
         const ColourImage truth = truth_of(stage, shown, shown.exposure);
+        const double at_s = static_cast<double>(i) / wanted.rate_hz;
+        const auto span = std::upper_bound(spans_s.begin(), spans_s.end(), at_s) - spans_s.begin();
+        spans.at(static_cast<std::size_t>(span - 1)).add(shown.picture, truth);
+        if (i < first) continue;
         instant.add(shown.picture, truth);
         tick.add(shown.picture, truth_of(stage, shown, shown.handed_over));
         if (const bool is_new = !before || shown.picture.data != played.shown[*before].picture.data;
@@ -173,7 +194,7 @@ std::string played_table(const PlayedTruth& wanted) {
         "pictures after the first {:g} s, repeated ones too.\n\n"
         "| against | PSNR dB | SSIM | outlier pixels |\n| --- | --- | --- | --- |\n"
         "| the instant shown | {:.2f} | {:.3f} | {:.1f} % |\n"
-        "| the tick's own time | {:.2f} | {:.3f} | {:.1f} % |\n\n"
+        "| the tick's own time | {:.2f} | {:.3f} | {:.1f} % |\n\n{}"
         "| | |\n| --- | --- |\n"
         "| flicker while the camera flies | {:.1f} times a camera's noise |\n"
         "| ticks: all, reprojected, repeated, missed | {}, {}, {}, {} |\n"
@@ -186,11 +207,11 @@ std::string played_table(const PlayedTruth& wanted) {
         "| levels by time: preparing | {} |\n",
         wanted.rate_hz, wanted.quality, played.report.renderer, instant.pictures(),
         wanted.settling_s, instant.psnr_db(), instant.ssim(), 100 * instant.outliers(),
-        tick.psnr_db(), tick.ssim(), 100 * tick.outliers(), flicker.against_a_camera(), stats.ticks,
-        stats.reprojected, stats.repeated, stats.missed, 100 * stats.reprojected_way.p50,
-        100 * stats.reprojected_way.p99, stats.late_ms.p50, stats.late_ms.p99, stats.late_ms.max,
-        stats.latency_ms.p50, stats.latency_ms.p95, stats.latency_ms.p99, stats.interval_ms.p50,
-        stats.interval_ms.p99,
+        tick.psnr_db(), tick.ssim(), 100 * tick.outliers(), along_time_table(spans),
+        flicker.against_a_camera(), stats.ticks, stats.reprojected, stats.repeated, stats.missed,
+        100 * stats.reprojected_way.p50, 100 * stats.reprojected_way.p99, stats.late_ms.p50,
+        stats.late_ms.p99, stats.late_ms.max, stats.latency_ms.p50, stats.latency_ms.p95,
+        stats.latency_ms.p99, stats.interval_ms.p50, stats.interval_ms.p99,
         static_cast<double>(played.report.instants_prepared) / stats.duration_s,
         shares_text(stats.render_shares), shares_text(stats.prepare_shares));
 }

@@ -19,7 +19,7 @@ int pixels_at(const DepthImage& depth_m, float metres, const cv::Rect& where) {
 TEST(BackgroundStereo, FindsAThinPoleThatTheMatcherMissed) {
     const std::vector<BackgroundView> views{background_with_pole(0), background_with_pole(-0.4),
                                             background_with_pole(0.4)};
-    const DepthImage depth_m = match_backgrounds(views).value().at(0);
+    const DepthImage depth_m = match_backgrounds(views, MatchedSize::whole).value().at(0);
     EXPECT_GT(pixels_at(depth_m, near_pole_m, pole_place), 0.9 * pole_place.area());
     const int others = matched_size.area() - pole_place.area();
     EXPECT_GT(pixels_at(depth_m, wall_behind_m, cv::Rect({0, 0}, matched_size)), 0.97 * others);
@@ -79,7 +79,8 @@ TEST(BackgroundStereo, ResolvesRepetitiveStructureWithTheRightImage) {
             background_with_row_of_poles(0, right_pictures, gains),
             background_with_row_of_poles(-0.4, right_pictures, gains),
             background_with_row_of_poles(0.4, right_pictures, gains)};
-        return pixels_at(match_backgrounds(views).value().at(0), near_pole_m, pole);
+        return pixels_at(match_backgrounds(views, MatchedSize::whole).value().at(0), near_pole_m,
+                         pole);
     };
     EXPECT_LT(right_depths(0), 0.3 * pole.area());
     EXPECT_GT(right_depths(3), 0.9 * pole.area());
@@ -92,10 +93,27 @@ TEST(BackgroundStereo, HandlesOcclusionsInOtherRigs) {
     const std::vector<BackgroundView> views{background_with_card(0, card),
                                             background_with_card(-0.4, card),
                                             background_with_card(0.4, card)};
-    const DepthImage depth_m = match_backgrounds(views).value().at(0);
+    const DepthImage depth_m = match_backgrounds(views, MatchedSize::whole).value().at(0);
     EXPECT_GT(pixels_at(depth_m, near_pole_m, card), 0.9 * card.area());
     EXPECT_GT(pixels_at(depth_m, wall_behind_m, left), 0.8 * left.area());
     EXPECT_GT(pixels_at(depth_m, wall_behind_m, right), 0.8 * right.area());
+}
+
+TEST(BackgroundStereo, FindsSurfacesInHalfTheSizeOfOddPictures) {
+    const cv::Rect card(60, 20, 30, 80), odd(0, 0, matched_size.width - 1, matched_size.height - 1);
+    std::vector<BackgroundView> views{background_with_card(0, card),
+                                      background_with_card(-0.4, card),
+                                      background_with_card(0.4, card)};
+    for (BackgroundView& view : views) {
+        view.colour = view.colour(odd).clone();
+        view.depth_m = view.depth_m(odd).clone();
+    }
+    const DepthImage depth_m = match_backgrounds(views, MatchedSize::half).value().at(0);
+    ASSERT_EQ(depth_m.size(), odd.size());
+    EXPECT_GT(pixels_at(depth_m, near_pole_m, card), 0.9 * card.area());
+    const cv::Rect left(0, 0, 40, odd.height), right(100, 0, 40, odd.height);
+    EXPECT_GT(pixels_at(depth_m, wall_behind_m, left), 0.9 * left.area());
+    EXPECT_GT(pixels_at(depth_m, wall_behind_m, right), 0.9 * right.area());
 }
 
 TEST(BackgroundStereo, KeepsTheRigsOwnDepthOnPlainSurfaces) {
@@ -105,7 +123,7 @@ TEST(BackgroundStereo, KeepsTheRigsOwnDepthOnPlainSurfaces) {
         view.colour = cv::Vec4b(120, 120, 120, 255);
         view.depth_m(cv::Rect(0, 0, 80, 120)) = 3;
     }
-    const DepthImage depth_m = match_backgrounds(views).value().at(0);
+    const DepthImage depth_m = match_backgrounds(views, MatchedSize::whole).value().at(0);
     // Regions whose depths are all in both other pictures.
     const cv::Rect nearer(40, 0, 38, 120), farther(82, 0, 38, 120);
     EXPECT_EQ(pixels_at(depth_m, 3, nearer), nearer.area());
@@ -141,7 +159,7 @@ BackgroundView background_with_floor(double x_m) {
 TEST(BackgroundStereo, ContinuesAPlaneWhereItIsPlain) {
     const std::vector<BackgroundView> views{background_with_floor(0), background_with_floor(-0.5),
                                             background_with_floor(0.5)};
-    const DepthImage depth_m = match_backgrounds(views).value().at(0);
+    const DepthImage depth_m = match_backgrounds(views, MatchedSize::whole).value().at(0);
     int plain = 0, on_floor = 0;
     for (int y = 92; y < matched_size.height; ++y)
         for (int x = 85; x < 140; ++x) {
@@ -159,7 +177,7 @@ TEST(BackgroundStereo, IgnoresUnknownPixels) {
     // Foreground hides one place of the wall in both other pictures.
     views[1].colour(cv::Rect(135, 30, 20, 40)) = cv::Vec4b(60, 140, 60, 0);
     views[2].colour(cv::Rect(105, 30, 20, 40)) = cv::Vec4b(60, 140, 60, 0);
-    const DepthImage depth_m = match_backgrounds(views).value().at(0);
+    const DepthImage depth_m = match_backgrounds(views, MatchedSize::whole).value().at(0);
     EXPECT_EQ(cv::countNonZero(depth_m(unknown)), 0);
     const cv::Rect behind(120, 30, 20, 40);
     EXPECT_GT(pixels_at(depth_m, wall_behind_m, behind), 0.9 * behind.area());
@@ -168,22 +186,22 @@ TEST(BackgroundStereo, IgnoresUnknownPixels) {
 
 TEST(BackgroundStereo, ReturnsNoDepthWithoutRigsThatStandApart) {
     const std::vector<BackgroundView> alone{background_with_pole(0)};
-    EXPECT_EQ(cv::countNonZero(match_backgrounds(alone).value().at(0)), 0);
+    EXPECT_EQ(cv::countNonZero(match_backgrounds(alone, MatchedSize::whole).value().at(0)), 0);
     const std::vector<BackgroundView> close{background_with_pole(0), background_with_pole(0.2)};
-    EXPECT_EQ(cv::countNonZero(match_backgrounds(close).value().at(0)), 0);
+    EXPECT_EQ(cv::countNonZero(match_backgrounds(close, MatchedSize::whole).value().at(0)), 0);
 }
 
 TEST(BackgroundStereo, AcceptsBackgroundsOfWhichNothingIsKnown) {
     std::vector<BackgroundView> views{background_with_pole(0), background_with_pole(0.4)};
     for (BackgroundView& view : views) view.depth_m = 0.0f;
-    EXPECT_EQ(cv::countNonZero(match_backgrounds(views).value().at(0)), 0);
+    EXPECT_EQ(cv::countNonZero(match_backgrounds(views, MatchedSize::whole).value().at(0)), 0);
 }
 
 TEST(BackgroundStereo, StopsWhenAsked) {
     std::stop_source stop;
     stop.request_stop();
     const std::vector<BackgroundView> views{background_with_pole(0), background_with_pole(0.4)};
-    EXPECT_FALSE(match_backgrounds(views, stop.get_token()));
+    EXPECT_FALSE(match_backgrounds(views, MatchedSize::whole, stop.get_token()));
 }
 
 class BackgroundStereoTaskTest : public testing::TestWithParam<BackgroundStereoTask::Manner> {};
@@ -192,18 +210,21 @@ TEST_P(BackgroundStereoTaskTest, ReturnsItsResultOnce) {
     BackgroundStereoTask matching;
     EXPECT_FALSE(matching.take(true));
     const std::vector<BackgroundView> views{background_with_pole(0), background_with_pole(-0.4)};
-    matching.begin(views, GetParam());
+    matching.begin(views, MatchedSize::whole, GetParam());
     EXPECT_TRUE(matching.is_under_way());
     const std::vector<DepthImage> depths_m = matching.take(true).value();
     ASSERT_EQ(depths_m.size(), 2u);
-    EXPECT_EQ(cv::norm(depths_m[1], match_backgrounds(views).value()[1], cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(depths_m[1], match_backgrounds(views, MatchedSize::whole).value()[1],
+                       cv::NORM_INF),
+              0);
     EXPECT_FALSE(matching.is_under_way());
     EXPECT_FALSE(matching.take(true));
 }
 
 TEST_P(BackgroundStereoTaskTest, CanBeAbandoned) {
     BackgroundStereoTask matching;
-    matching.begin({background_with_pole(0), background_with_pole(-0.4)}, GetParam());
+    matching.begin({background_with_pole(0), background_with_pole(-0.4)}, MatchedSize::whole,
+                   GetParam());
 }
 
 INSTANTIATE_TEST_SUITE_P(Manners, BackgroundStereoTaskTest,
@@ -218,7 +239,7 @@ std::ptrdiff_t threads() {
 TEST(BackgroundStereoTask, StartsNoThreadIfTheCallerWaits) {
     BackgroundStereoTask matching;
     const std::ptrdiff_t before = threads();
-    matching.begin({background_with_pole(0), background_with_pole(-0.4)},
+    matching.begin({background_with_pole(0), background_with_pole(-0.4)}, MatchedSize::whole,
                    BackgroundStereoTask::Manner::when_waited_for);
     EXPECT_EQ(threads(), before);
     EXPECT_FALSE(matching.take());
