@@ -10,6 +10,9 @@ namespace {
 /// A full packet takes 1538 bytes on Ethernet for 1448 bytes of data; ZeroMQ and its encryption add
 /// less than one percent.
 constexpr double wire_bytes_a_byte = 1538.0 / 1448 * 1.01;
+/// SRT needs this many times as much as TCP for the same frames: a further packet for each five,
+/// and shorter packets (docs/build/networks.md).
+constexpr double datagram_factor = 1.25;
 constexpr double planned_share = 0.8;
 /// The largest rate divisor that is proposed.
 constexpr int most_divisor = 16;
@@ -48,7 +51,8 @@ LinkBudget budget_at(const std::vector<RigWeight>& weights, double rate_hz,
     LinkBudget budget;
     std::vector<double> sent;
     for (const RigWeight& weight : weights) {
-        const double needed = mbit_s(bytes_of(weight), rate_hz);
+        const double needed =
+            (weight.by_datagrams ? datagram_factor : 1) * mbit_s(bytes_of(weight), rate_hz);
         budget.rigs.push_back({weight.rig, needed, needed / (planned_share * limits.rig_mbit_s)});
         sent.push_back(needed);
     }

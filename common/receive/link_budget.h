@@ -25,6 +25,7 @@ struct RigWeight {
     double other_bytes = 0;           ///< disparity and header, mean per frame
     std::vector<AtQuality> ladder{};  ///< from the best quality to the lowest
     std::vector<AtScale> smaller{};   ///< from the largest image to the smallest
+    bool by_datagrams = false;        ///< the frames go over SRT, with its error correction
 };
 
 struct LinkLimits {
@@ -56,8 +57,9 @@ struct LinkBudget {
     bool fits() const;
 };
 
-/// Computes the load at `rate_hz`, including the overhead of Ethernet, IP, TCP and encryption. Four
-/// fifths of a link are planned for, since frames come in bursts and other programs send, too.
+/// Computes the load at `rate_hz`, including the overhead of Ethernet, IP, TCP or SRT, and
+/// encryption. Four fifths of a link are planned for, since frames come in bursts and other
+/// programs send, too.
 LinkBudget plan_links(const std::vector<RigWeight>& weights, double rate_hz,
                       const LinkLimits& limits);
 

@@ -251,13 +251,18 @@ bool FrameServer::receive() {
 bool FrameServer::is_revoked(const std::string& route, zmq::message_t& part) {
     if (!admission_) return false;
     const std::string key = host_key_of(part);
-    if (admission_->lists(key)) return false;
-    const std::lock_guard lock(mutex_);
-    if (!links_.dismiss(key)) {
+    if (admission_->lists(key)) {
+        told_.erase(route);
+        return false;
+    }
+    if (!told_.insert(route).second) {
         // It was told why, and speaks on.
         strangers_.disconnect(part);
+        told_.erase(route);
         return true;
     }
+    const std::lock_guard lock(mutex_);
+    links_.dismiss(key);
     log_warning("the host at {} is no longer served: its key {} was removed from {}",
                 address_of(part), key, admission_->path().string());
     links_.refuse(route, fmt::format("rig {} no longer admits this host: its key was removed from "

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -91,7 +92,7 @@ class FrameServer {
     void beat(MonotonicTime now);
     bool receive();
     /// Refuses a host whose key was removed from the list of authorized hosts while it was
-    /// connected.
+    /// connected, and ends its connection if it speaks on.
     bool is_revoked(const std::string& route, zmq::message_t& part);
     /// Warns if the host's TAI offset differs from this computer's.
     void note_clock(const HostMessage& message, zmq::message_t& part, MonotonicTime now);
@@ -113,6 +114,7 @@ class FrameServer {
 
     zmq::context_t context_;
     std::optional<HostAdmission> admission_;
+    std::set<HostLinks::Route> told_;  ///< connections whose host was told that its key was removed
     zmq::socket_t router_;
     StrangerWatch strangers_;
     std::atomic<std::uint64_t> refused_connections_ = 0;

@@ -240,14 +240,9 @@ void HostLinks::fetched(const FetchJob& job, std::shared_ptr<const KeptParts> ke
     }
 }
 
-bool HostLinks::dismiss(const std::string& host_key) {
-    bool any = false;
+void HostLinks::dismiss(const std::string& host_key) {
     for (Link& link : links_)
-        if (link.attached && link.host_key == host_key) {
-            any = true;
-            let_go(link);
-        }
-    return any;
+        if (link.attached && link.host_key == host_key) let_go(link);
 }
 
 void HostLinks::refuse(const Route& route, std::string sentence, bool passes) {

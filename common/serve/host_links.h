@@ -114,8 +114,8 @@ class HostLinks {
     void hear(const Route& route, const std::string& host_key, const HostMessage& message,
               MonotonicTime now);
 
-    /// Removes the hosts with this key. Returns whether there was one.
-    bool dismiss(const std::string& host_key);
+    /// Removes the hosts with this key.
+    void dismiss(const std::string& host_key);
 
     /// Sends a refusal to the sender of an invalid message.
     void refuse(const Route& route, std::string sentence, bool passes = false);

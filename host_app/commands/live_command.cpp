@@ -84,7 +84,8 @@ CommandEntry live_command_entry() {
             ->group(group::input);
         command
             ->add_option("--wait", options->wait_s,
-                         "With --headless: wait at most this many seconds for the rigs")
+                         "With --headless: wait at most this many seconds for the rigs, and up to "
+                         "five minutes more while one reports that it is starting")
             ->check(CLI::Range(0.1, 3600.0))
             ->capture_default_str()
             ->group(group::input);

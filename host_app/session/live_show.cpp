@@ -33,6 +33,19 @@ std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set)
     return text;
 }
 
+/// Lists the rigs that report that they are starting, with what they do.
+std::string starts_of(const ReceiverStatus& status) {
+    std::string text;
+    for (const RigStatus& rig : status.rigs)
+        if (rig.connected && !rig.health.starting.empty())
+            text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", rig.rig, rig.health.starting);
+    return text;
+}
+
+double seconds_of(std::chrono::nanoseconds time) {
+    return std::chrono::duration<double>(time).count();
+}
+
 double field_of_view_rad(const RigFrame& frame) {
     return 2 * std::atan(0.5 * frame.geometry.width_px / frame.geometry.f_px);
 }
@@ -125,8 +138,11 @@ LiveShow::LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFe
 }
 
 bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop,
-                             const std::function<void()>& while_waiting) {
-    const MonotonicTime deadline = MonotonicClock::now() + limit;
+                             const std::function<void()>& while_waiting,
+                             std::chrono::nanoseconds start_limit) {
+    const MonotonicTime begin = MonotonicClock::now(), latest = begin + limit + start_limit;
+    MonotonicTime deadline = begin + limit;
+    bool told_of_start = false;
     const auto newest_frame_set = [&]() -> const FrameSet* {
         const std::shared_ptr<const ReadyInstant> ready = instants_.newest();
         return ready ? ready->set.get() : nullptr;
@@ -148,12 +164,20 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop,
             std::all_of(now.rigs.begin(), now.rigs.end(),
                         [](const RigStatus& rig) { return !rig.refused.empty(); }))
             fail("every rig refuses this host: {}", states_of_missing(now, newest_frame_set()));
+        if (const std::string starts = starts_of(now); !starts.empty()) {
+            if (!told_of_start && MonotonicClock::now() - begin >= limit) {
+                told_of_start = true;
+                log_info("waiting on, up to {:g} s, because rigs are starting: {}",
+                         seconds_of(latest - begin), starts);
+            }
+            deadline = std::min(MonotonicClock::now() + limit, latest);
+        }
         if (MonotonicClock::now() - reported >= waiting_report_period) {
             log_info("still waiting for frames: {}", states_of_missing(now, newest_frame_set()));
             reported = MonotonicClock::now();
         }
     }
-    const double limit_s = std::chrono::duration<double>(limit).count();
+    const double limit_s = seconds_of(deadline - begin);
     if (!instants_.newest())
         fail("no rig sent a frame within {:g} s; check that the rigs are running ({})", limit_s,
              states_of_missing(status(), nullptr));

@@ -58,12 +58,18 @@ class LiveShow {
     LiveShow(const LiveSettings& settings, const FlightPlan& plan, StageFeed feed,
              JogDevices* deck);
 
-    /// Waits for an instant with all rigs. After `limit` it continues with the rigs that are
-    /// present and logs the missing ones. Throws Error, with every rig's state, if no rig sent a
+    /// The longest that wait_for_rigs() waits beyond its limit for rigs that report that they
+    /// start, such as while their GPU compiles shaders.
+    static constexpr std::chrono::minutes longest_start{5};
+
+    /// Waits for an instant with all rigs. After `limit`, counted from when no missing rig reports
+    /// any more that it starts, it continues with the rigs that are present and logs the missing
+    /// ones. Throws Error, with every rig's state, if no rig sent a
     /// frame, and immediately if all rigs refuse this host. Returns false if the program is told to
     /// stop. `while_waiting` is called repeatedly; an exception from it ends the wait.
     bool wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop,
-                       const std::function<void()>& while_waiting = {});
+                       const std::function<void()>& while_waiting = {},
+                       std::chrono::nanoseconds start_limit = longest_start);
 
     /// Waits for the first instant of a take. Returns false if the program is told to stop.
     bool wait_for_first_frame_set(StopSignal& stop);

@@ -149,7 +149,11 @@ Measured measure(const PlanOptions& options, const StageConfig& stage) {
         fail("{} sent no frames{}; vantage rigs status shows why", fmt::join(silent, ", "),
              options.start ? ""
                            : "; rigs capture only while a host runs the stage, or with --start");
-    return {scales.means(), std::move(latest), std::move(gpu_times)};
+    std::vector<RigWeight> weights = scales.means();
+    const ReceiverStatus status = receiver.status();
+    for (std::size_t i = 0; i < weights.size(); ++i)
+        weights[i].by_datagrams = status.rigs[i].by_datagrams;
+    return {std::move(weights), std::move(latest), std::move(gpu_times)};
 }
 
 std::string words_of(const LinkBudget::Proposal& proposal, double rate_hz) {
@@ -245,6 +249,7 @@ nlohmann::ordered_json to_json(const std::vector<RigWeight>& weights, const Link
                         {"frames", weights[i].frames},
                         {"colour_bytes", weights[i].colour_bytes},
                         {"other_bytes", weights[i].other_bytes},
+                        {"road", weights[i].by_datagrams ? "srt" : "tcp"},
                         {"mbit_s", budget.rigs[i].mbit_s},
                         {"share", budget.rigs[i].share}});
     for (const LinkBudget::Proposal& proposal : budget.proposals) {

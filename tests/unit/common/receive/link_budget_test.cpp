@@ -29,6 +29,15 @@ TEST(LinkBudget, IncludesProtocolOverhead) {
     EXPECT_TRUE(budget.proposals.empty());
 }
 
+TEST(LinkBudget, CountsAQuarterMoreForARigOverSrt) {
+    std::vector<RigWeight> weights{full_size("near"), full_size("far")};
+    weights[1].by_datagrams = true;
+    const LinkBudget budget = plan_links(weights, 30, {});
+    EXPECT_NEAR(budget.rigs[1].mbit_s, 1.25 * budget.rigs[0].mbit_s, 1e-9);
+    EXPECT_NEAR(budget.rigs[1].share, 1.25 * budget.rigs[0].share, 1e-9);
+    EXPECT_NEAR(budget.host_mbit_s, 2.25 * budget.rigs[0].mbit_s, 1e-9);
+}
+
 TEST(LinkBudget, ProposesQualitiesForFourRigsOnOneGigabit) {
     const LinkBudget budget = plan_links(four_full_size(), 30, {});
     for (const LinkBudget::Rig& rig : budget.rigs) EXPECT_LT(rig.share, 1);

@@ -82,16 +82,25 @@ TEST(FrameServer, OfAnyAddressIsReachedOverBothFamilies) {
     }
 }
 
-/// A host that says what it is told to, and hears one message at a time.
+/// A host that the rig has admitted. It says what it is told to, and hears one message at a time.
 class TalkingHost {
   public:
     TalkingHost(const std::string& endpoint, const CurveKeys& keys, const std::string& rig_key)
         : socket_(context_, zmq::socket_type::dealer) {
+        constexpr int patience_ms = 60'000;
         socket_.set(zmq::sockopt::linger, 0);
+        socket_.set(zmq::sockopt::rcvtimeo, patience_ms);
         socket_.set(zmq::sockopt::curve_serverkey, rig_key);
         socket_.set(zmq::sockopt::curve_publickey, keys.public_key);
         socket_.set(zmq::sockopt::curve_secretkey, keys.secret_key);
+        zmq::socket_t events(context_, zmq::socket_type::pair);
+        zmq_socket_monitor(socket_.handle(), "inproc://admission", ZMQ_EVENT_HANDSHAKE_SUCCEEDED);
+        events.set(zmq::sockopt::linger, 0);
+        events.connect("inproc://admission");
         socket_.connect(endpoint);
+        zmq::message_t event;
+        EXPECT_TRUE(events.recv(event)) << "the rig admits this host";
+        zmq_socket_monitor(socket_.handle(), nullptr, 0);
     }
     /// Speaks until the answer is, or is not, a refusal. Returns the refusal.
     std::string speak_until(bool is_refused) {
@@ -147,12 +156,17 @@ TEST(FrameServer, StopsServingAConnectedHostWhoseKeyIsRemoved) {
     list(first.public_key + "\n" + second.public_key + "\n");
     FrameServer server(settings, "rig-a", 42);
     TalkingHost removed(server.endpoint(), first, rig.public_key),
+        silent(server.endpoint(), first, rig.public_key),
         kept(server.endpoint(), second, rig.public_key);
     removed.speak_until(false);
     kept.speak_until(false);
     list(second.public_key + "\n");
     EXPECT_NE(removed.speak_until(true).find("rig rig-a no longer admits this host"),
               std::string::npos);
+    EXPECT_NE(silent.speak_until(true).find("rig rig-a no longer admits this host"),
+              std::string::npos)
+        << "it had not spoken before";
+    EXPECT_TRUE(silent.is_cut_off());
     kept.speak_until(false);
     EXPECT_EQ(server.change([](HostLinks& links) {
         std::size_t attached = 0;

@@ -46,6 +46,11 @@ class ScriptedFeed {
         const std::lock_guard lock(mutex_);
         refused_ = sentence;
     }
+    /// What every rig reports that it does before its first frame; empty: it delivers.
+    void set_starting(const std::string& words) {
+        const std::lock_guard lock(mutex_);
+        starting_ = words;
+    }
     /// Makes the feed throw from now on.
     void fail_with(std::string sentence) {
         const std::lock_guard lock(mutex_);
@@ -69,6 +74,7 @@ class ScriptedFeed {
                         entry.rig = rig;
                         entry.connected = refused_.empty();
                         entry.refused = refused_;
+                        entry.health.starting = starting_;
                         status.rigs.push_back(entry);
                     }
                     return status;
@@ -102,7 +108,7 @@ class ScriptedFeed {
     BoundedQueue<FrameSet> queue_{64};
     mutable std::mutex mutex_;
     ReceiverStatus status_;
-    std::string refused_, failure_;
+    std::string refused_, starting_, failure_;
 };
 
 }  // namespace vantage

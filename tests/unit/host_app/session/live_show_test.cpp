@@ -92,6 +92,33 @@ TEST_F(LiveShowTest, NamesTheRigsThatSendNoFrames) {
     EXPECT_NE(sentence.find("north connected; south connected"), std::string::npos) << sentence;
 }
 
+TEST_F(LiveShowTest, WaitsOnForRigsThatReportThatTheyStart) {
+    constexpr auto limit = 50ms;
+    feed_.set_starting("compiling shader 3 of 9");
+    show();
+    const MonotonicTime begin = MonotonicClock::now();
+    bool is_pushed = false;
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(show().wait_for_rigs(limit, stop_, [&] {
+        if (is_pushed || MonotonicClock::now() - begin < 3 * limit) return;
+        is_pushed = true;
+        push(1);
+    }));
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_NE(log.find("waiting on, up to 300.05 s, because rigs are starting: "
+                       "north: compiling shader 3 of 9; south: compiling"),
+              std::string::npos)
+        << log;
+    EXPECT_EQ(show().newest()->set->present(), 2);
+}
+
+TEST_F(LiveShowTest, GivesUpRigsThatStartForTooLong) {
+    feed_.set_starting("compiling shader 3 of 9");
+    const std::string sentence =
+        thrown_sentence([&] { show().wait_for_rigs(50ms, stop_, {}, 150ms); });
+    EXPECT_NE(sentence.find("no rig sent a frame within 0.2 s"), std::string::npos) << sentence;
+}
+
 TEST_F(LiveShowTest, EndsTheWaitOnASignalAndNamesTheMissingRigs) {
     show();
     kill(getpid(), SIGINT);
