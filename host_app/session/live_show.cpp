@@ -177,7 +177,7 @@ bool LiveShow::wait_for_rigs(std::chrono::nanoseconds limit, StopSignal& stop,
             reported = MonotonicClock::now();
         }
     }
-    const double limit_s = seconds_of(deadline - begin);
+    const double limit_s = std::round(10 * seconds_of(deadline - begin)) / 10;
     if (!instants_.newest())
         fail("no rig sent a frame within {:g} s; check that the rigs are running ({})", limit_s,
              states_of_missing(status(), nullptr));

@@ -200,7 +200,8 @@ TEST_F(LiveProcesses, ContinueWithoutAMissingRig) {
     wait_for(*rigs_[0], "publishing on");
     const auto host = start_host({"--frames", "2", "--json", "--wait", "4"});
     ASSERT_EQ(host->wait().status, 0) << host->err();
-    EXPECT_NE(host->err().find("within 4 s: right disconnected"), std::string::npos) << host->err();
+    // Longer than 4 s if the other rig still reported that it started.
+    EXPECT_NE(host->err().find(" s: right disconnected"), std::string::npos) << host->err();
     const nlohmann::json summary = nlohmann::json::parse(host->out());
     EXPECT_EQ(summary["frame_sets"]["complete"], 0);
     EXPECT_EQ(summary["rigs"][1]["state"], "disconnected");
