@@ -15,9 +15,11 @@ void BackgroundStereoTask::begin(std::vector<BackgroundView> views, MatchedSize 
     if (manner == Manner::when_waited_for)
         result_ = std::async(std::launch::deferred, std::move(match));
     else
-        result_ = std::async(std::launch::async, [match = std::move(match)] {
+        result_ = std::async(std::launch::async, [match = std::move(match), size] {
             name_this_thread("bg stereo");
-            make_this_thread_idle();
+            // Beside a show that takes all processors, an idle thread would need half a minute for
+            // the second that half the size takes.
+            if (size == MatchedSize::whole) make_this_thread_idle();
             const TraceSpan span("background stereo");
             return match();
         });

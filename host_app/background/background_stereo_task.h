@@ -13,7 +13,7 @@ namespace vantage {
 class BackgroundStereoTask {
   public:
     enum class Manner {
-        beside,           ///< on a thread of its own, at idle priority
+        beside,           ///< on a thread of its own, at idle priority if the whole size is matched
         when_waited_for,  ///< on the thread that calls take(true)
     };
 
