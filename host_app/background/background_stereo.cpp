@@ -275,14 +275,14 @@ OtherView seen_from(const BackgroundView& view, const ColourImage& right) {
     return {other_from_pixel(camera, view).cast<float>(), finer(right), {}};
 }
 
-/// What is matched: the views, what is read of their pictures, and the depths that are tried before
-/// planes are known.
+/// The input of both passes: the views at the matched size, their enlarged pictures, and the
+/// inverse depths to try before planes are known.
 struct Scene {
     std::vector<BackgroundView> views;
-    std::vector<ColourImage> rights;  ///< of the views' sizes; empty: there is none
-    std::vector<cv::Mat4b> fine;
-    std::vector<std::vector<std::size_t>> others;  ///< that a view is compared with
-    std::vector<DepthLabels> labels;               ///< no depths: there is nothing to match
+    std::vector<ColourImage> rights;               ///< of the views' sizes; empty: there is none
+    std::vector<cv::Mat4b> fine;                   ///< the views' pictures, enlarged by `fineness`
+    std::vector<std::vector<std::size_t>> others;  ///< the views that each view is compared with
+    std::vector<DepthLabels> labels;               ///< without depths if there is nothing to match
 
     Scene(std::vector<BackgroundView> of, std::vector<ColourImage> of_rights)
         : views(std::move(of)), rights(std::move(of_rights)) {

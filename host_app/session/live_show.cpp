@@ -33,7 +33,7 @@ std::string states_of_missing(const ReceiverStatus& status, const FrameSet* set)
     return text;
 }
 
-/// Lists the rigs that report that they are starting, with what they do.
+/// Lists the rigs that report a start-up step, with that step.
 std::string starts_of(const ReceiverStatus& status) {
     std::string text;
     for (const RigStatus& rig : status.rigs)

@@ -18,19 +18,8 @@ finish() {
 trap finish EXIT
 trap 'exit 130' INT TERM
 
-passed=0 failed=0
-check() { # what command...
-  local what=$1
-  shift
-  if "$@" >"$work/check.log" 2>&1; then
-    echo "ok    $what ($SECONDS s)"
-    passed=$((passed + 1))
-  else
-    echo "FAIL  $what: $(tail -n 25 "$work/check.log")"
-    failed=$((failed + 1))
-  fi
-}
-not() { ! "$@"; }
+checks_log=$work/check.log
+. "$here/../support/checks.sh"
 
 make_network
 (cd "$work/repository/public" && exec python3 -m http.server --bind $network.1 80 >"$work/http.log" 2>&1) &
@@ -185,5 +174,4 @@ check "it is mended" play -e vantage_serial=3
 check "and gone" play --check -e vantage_serial=3
 check "at all" none_changed north south west
 check "all stream" all_stream
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+close_checks

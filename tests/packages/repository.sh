@@ -36,19 +36,8 @@ finish() {
 trap finish EXIT
 trap 'exit 130' INT TERM
 
-passed=0 failed=0
-check() { # what command...
-  local what=$1
-  shift
-  if "$@" >"$work/check.log" 2>&1; then
-    echo "ok    $what"
-    passed=$((passed + 1))
-  else
-    echo "FAIL  $what: $(tail -n 5 "$work/check.log")"
-    failed=$((failed + 1))
-  fi
-}
-not() { ! "$@"; }
+checks_log=$work/check.log
+. "$tools/../tests/support/checks.sh"
 refuses() { # words command...
   local words=$1
   shift
@@ -135,5 +124,4 @@ index=$(find "$work/repository/public/dists/$codename/main/binary-amd64" -name P
 echo >>"$index"
 rm -f "${index}".gz "${index}".bz2
 check "what somebody changed is refused" not inside sh -c 'rm -rf /var/lib/apt/lists/* && apt-get -q update -o APT::Update::Error-Mode=any'
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+close_checks

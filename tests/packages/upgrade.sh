@@ -10,6 +10,9 @@ cd "$(dirname "$0")/../.."
 old_revision=${1:-$(git log --diff-filter=A --reverse --format=%h -- common/datagrams | head -n 1)^}
 commit=$(git rev-parse --verify --quiet "$old_revision^{commit}") ||
   { echo "upgrade.sh: '$old_revision' is no revision of this checkout; fetch its history, or name another" >&2; exit 2; }
+for tool in jq oscsend; do
+  command -v $tool >/dev/null || { echo "upgrade.sh: $tool is missing (./test installs it)" >&2; exit 2; }
+done
 out=$PWD/out/upgrade made=$PWD/build/upgrade/$commit
 rm -rf "$out"
 mkdir -p "$out"/{north,south,west} "$made"
@@ -24,18 +27,8 @@ finish() {
 trap finish EXIT
 trap 'exit 130' INT TERM
 
-passed=0 failed=0
-check() { # what command...
-  local what=$1
-  shift
-  if "$@" >"$out/check.log" 2>&1; then
-    echo "ok    $what"
-    passed=$((passed + 1))
-  else
-    echo "FAIL  $what: $(tail -n 5 "$out/check.log")"
-    failed=$((failed + 1))
-  fi
-}
+checks_log=$out/check.log
+. tests/support/checks.sh
 
 # The packages of rigs and hosts alone: calibration takes as long to compile as a host.
 pack() { # build folder, packages
@@ -167,14 +160,7 @@ start_host() { # host, program, option...
 let_play() { # host
   until_says "$1" ' frames, ' $(($(count_of "$1" ' frames, ') + 3))
 }
-osc() { # host, command of no or one whole number
-  /usr/bin/python3 -c '
-import socket, struct, sys
-port, name, numbers = int(sys.argv[1]), "/vantage/" + sys.argv[2], [int(word) for word in sys.argv[3:]]
-padded = lambda text: text.encode() + bytes(4 - len(text) % 4)
-message = padded(name) + padded("," + "i" * len(numbers)) + b"".join(struct.pack(">i", number) for number in numbers)
-socket.socket(type=socket.SOCK_DGRAM).sendto(message, ("127.0.0.1", port))' "${port[$1]}" "${@:2}"
-}
+osc() { oscsend 127.0.0.1 "${port[$1]}" "/vantage/$2" "${@:3}"; } # host, command, types, numbers
 
 # 1. The older host plays and records, and one rig is upgraded under it.
 for rig in "${rigs[@]}"; do start_rig "$rig"; done
@@ -184,7 +170,7 @@ upgrade_rig west
 until_says first 'rig west is connected' 2
 let_play first
 # What an operator makes by hand.
-osc first store 5
+osc first store i 5
 osc first save_background
 until_says first 'saved the background'
 until_true first "shot 5 in its flight file" grep -q 'number = 5' "$out/first/stage.flight.toml"
@@ -202,7 +188,7 @@ for rig in north south; do
   until_says second "rig $rig is connected" 2
   let_play second
 done
-osc second store 6
+osc second store i 6
 until_true second "shot 6 in its flight file" grep -q 'number = 6' "$out/second/stage.flight.toml"
 check "the newer host leaves in order" end second
 for rig in "${rigs[@]}"; do check "$rig of this version ends in order" end "$rig"; done
@@ -257,5 +243,4 @@ check "the older version reads this one's take, or refuses it with a sentence" r
 check "and what both recorded" reads_or_refuses "$old" take info "$out/whole.mkv"
 check "the older version plays it with this one's files, or refuses them with a sentence" \
   reads_or_refuses plays "$old" "$out/second.mkv" "$out/second/new.vset" "$out/second"
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+close_checks

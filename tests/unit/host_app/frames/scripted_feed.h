@@ -46,7 +46,7 @@ class ScriptedFeed {
         const std::lock_guard lock(mutex_);
         refused_ = sentence;
     }
-    /// What every rig reports that it does before its first frame; empty: it delivers.
+    /// Sets the start-up step that every rig reports; empty once the rigs send frames.
     void set_starting(const std::string& words) {
         const std::lock_guard lock(mutex_);
         starting_ = words;
