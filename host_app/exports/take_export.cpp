@@ -84,15 +84,18 @@ ExportStats export_moments(const TakeReader& take, const ExportFormat& format, c
             ++stats.there;
             continue;
         }
+        // A folder, so that whatever an interrupted process had begun goes with it.
         const std::filesystem::path partial = folder / ("partial-" + name);
         std::error_code error;
         std::filesystem::remove_all(partial, error);
         const Moment moment = reader.at(pulses[i]);
         stats.damaged += moment.damaged;
         if (moment.views.empty()) continue;
-        format.write(moment, partial);
-        std::filesystem::rename(partial, folder / name, error);
+        make_folder(partial);
+        format.write(moment, partial / name);
+        std::filesystem::rename(partial / name, folder / name, error);
         if (error) fail("cannot write {}: {}", (folder / name).string(), error.message());
+        std::filesystem::remove_all(partial, error);
         ++stats.written;
     }
     return stats;

@@ -361,9 +361,11 @@ TEST_F(TakeExportTest, ResumesAnInterruptedExport) {
     const TakePart part{first_pulse(), first_pulse() + 10, 3};
     EXPECT_EQ(export_moments(take_, ply, part, path("points")).written, 4u);
     const std::string whole = text("points/000003.ply");
-    std::filesystem::rename(path("points/000003.ply"), path("points/partial-000003.ply"));
+    std::filesystem::remove(path("points/000003.ply"));
     std::ofstream(path("points/000006.ply")) << "mine";
-    std::ofstream(path("points/partial-000003.ply")) << "half";
+    // What a killed process leaves.
+    std::filesystem::create_directory(path("points/partial-000003.ply"));
+    std::ofstream(path("points/partial-000003.ply/000003.ply.partial-7")) << "half";
     std::vector<double> told;
     const ExportStats stats = export_moments(take_, ply, part, path("points"),
                                              [&](double share) { told.push_back(share); });
