@@ -12,7 +12,7 @@
 namespace vantage {
 namespace {
 
-constexpr std::chrono::seconds longest_wait{300};
+constexpr std::chrono::seconds longest_frame_wait{300};
 
 StageConfig stage_of(const std::string& endpoint, double rate_hz) {
     StageConfig stage;
@@ -47,14 +47,14 @@ void RigProcess::start() {
 }
 
 std::shared_ptr<const RigFrame> RigProcess::next_frame() {
-    const auto end = std::chrono::steady_clock::now() + longest_wait;
+    const auto end = std::chrono::steady_clock::now() + longest_frame_wait;
     while (std::chrono::steady_clock::now() < end) {
         if (const auto set = receiver_->stage_receiver.next(std::chrono::seconds(1)))
             if (set->slots[0].frame) return set->slots[0].frame;
         if (const auto status = program_->ended())
             fail("the rig ended with {}; it said: {}", *status, log());
     }
-    fail("no frame of the rig came within {} s; it said: {}", longest_wait.count(), log());
+    fail("no frame of the rig came within {} s; it said: {}", longest_frame_wait.count(), log());
 }
 
 std::string RigProcess::stop() {

@@ -16,13 +16,13 @@ namespace vantage {
 namespace {
 
 /// Its bytes fill no whole number of memory's pages.
-constexpr int width = 320, height = 180;
-const OutputFormat format{.width_px = width, .height_px = height, .rate_hz = 10};
+constexpr int output_width = 320, output_height = 180;
+const OutputFormat format{.width_px = output_width, .height_px = output_height, .rate_hz = 10};
 
 TEST(V4l2Output, IsACameraThatFfmpegReads) {
     constexpr int left = 40, right = 200;  // grey levels
-    ColourImage picture(height, width, cv::Vec4b(left, left, left, 255));
-    picture.colRange(width / 2, width) = cv::Vec4b(right, right, right, 255);
+    ColourImage picture(output_height, output_width, cv::Vec4b(left, left, left, 255));
+    picture.colRange(output_width / 2, output_width) = cv::Vec4b(right, right, right, 255);
     const OutputPatience patience;
     const auto target = plan_output("v4l2:/dev/video20", format).open(patience);
     target->write(picture, 0, "");  // a loopback device is a camera from its first picture on
@@ -34,7 +34,8 @@ TEST(V4l2Output, IsACameraThatFfmpegReads) {
     });
     const TemporaryFolder folder;
     const std::filesystem::path seen = folder.path() / "seen.yuv", said = folder.path() / "said";
-    constexpr std::size_t pictures = 3, picture_bytes = std::size_t{2} * width * height;
+    constexpr std::size_t pictures = 3,
+                          picture_bytes = std::size_t{2} * output_width * output_height;
     const int status =
         ChildProcess({.program = "/usr/bin/ffmpeg",
                       .arguments = {"-v", "error", "-f", "v4l2", "-i", "/dev/video20", "-frames:v",
@@ -47,13 +48,13 @@ TEST(V4l2Output, IsACameraThatFfmpegReads) {
     const std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
     ASSERT_EQ(bytes.size(), pictures * picture_bytes);
     const auto luma = [&](int x, int y) {  // of the second
-        const auto at = static_cast<std::size_t>(y * width + x) * 2;
+        const auto at = static_cast<std::size_t>(y * output_width + x) * 2;
         return static_cast<int>(static_cast<std::uint8_t>(bytes[picture_bytes + at]));
     };
     const auto of_grey = [](int level) { return 16 + level * 219 / 255; };
-    for (const int y : {0, height / 2, height - 1}) {
+    for (const int y : {0, output_height / 2, output_height - 1}) {
         EXPECT_NEAR(luma(10, y), of_grey(left), 1) << "row " << y;
-        EXPECT_NEAR(luma(width - 10, y), of_grey(right), 1) << "row " << y;
+        EXPECT_NEAR(luma(output_width - 10, y), of_grey(right), 1) << "row " << y;
     }
     EXPECT_GE(target->bytes(), pictures * picture_bytes);
 }

@@ -18,14 +18,14 @@ namespace {
 
 using testing::HasSubstr;
 
-const cv::Size sensor_size(640, 480);
+const cv::Size webcam_size(640, 480);
 
 /// A grey picture of the data set, mirrored at its borders to the sensors' size.
 cv::Mat sensor_picture(const std::filesystem::path& file) {
     const GreyImage grey = to_grey(read_colour_image(file));
     cv::Mat picture;
-    cv::copyMakeBorder(grey, picture, 0, sensor_size.height - grey.rows, 0,
-                       sensor_size.width - grey.cols, cv::BORDER_REFLECT);
+    cv::copyMakeBorder(grey, picture, 0, webcam_size.height - grey.rows, 0,
+                       webcam_size.width - grey.cols, cv::BORDER_REFLECT);
     return picture;
 }
 
@@ -38,7 +38,7 @@ class TeddyOnVivid : public testing::Test {
         right_ = sensor_picture(data / "middlebury2003/teddy/im6.png");
         write_grey_image(file("left.png"), left_);
         write_grey_image(file("right.png"), right_);
-        save_calibration(file("rig.yaml"), ideal_rig(RigConfig{}, sensor_size), {});
+        save_calibration(file("rig.yaml"), ideal_rig(RigConfig{}, webcam_size), {});
     }
 
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }
