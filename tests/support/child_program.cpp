@@ -7,7 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "common/base/error.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -41,6 +43,11 @@ ChildProgram::~ChildProgram() { send_signal(SIGKILL); }
 
 std::string ChildProgram::out() const { return text_of(out_); }
 std::string ChildProgram::err() const { return text_of(err_); }
+
+void ChildProgram::wait_for(const std::string& words) const {
+    if (!eventually([&] { return err().find(words) != std::string::npos; }))
+        fail("'{}' is not in the log of a program:\n{}", words, err());
+}
 
 ProgramResult ChildProgram::wait() { return {process_.wait(), out(), err()}; }
 

@@ -21,16 +21,16 @@ TEST_F(DatagramShow, PlaysOnOverTcpWhileDatagramsAreBlocked) {
     const RoadTrouble lossy{.lose_every = 14, .delay = 10ms};
     road_->impair(lossy);
     start_host({"--seconds", "600"});
-    wait_for(*host_, "rig far: its frames come over SRT");
-    wait_for(*far_, "over SRT");
+    host_->wait_for("rig far: its frames come over SRT");
+    far_->wait_for("over SRT");
     wait_for_progress();
     wait_for_progress();
 
     RoadTrouble blocked;
     blocked.is_down = blocked.only_udp = true;
     road_->impair(blocked);
-    wait_for(*host_, "rig far: its frames come over TCP because");
-    wait_for(*far_, "over TCP because");
+    host_->wait_for("rig far: its frames come over TCP because");
+    far_->wait_for("over TCP because");
     EXPECT_LE(sets_until_far_is_back([&] { road_->impair(lossy); }), sets_to_recover)
         << host_->err();
     ASSERT_TRUE(eventually([&] { return count_of("rig far: its frames come over SRT") == 2; }))

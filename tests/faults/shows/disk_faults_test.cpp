@@ -45,11 +45,11 @@ class DiskFaults : public TwoRigShow {
 
 TEST_F(DiskFaults, ATakeWhoseDiskIsFullEndsAndTheProgrammeGoesOn) {
     start_host({"--seconds", "600", "--take", file("disk/take.mkv")});
-    wait_for(*host_, "recording " + file("disk/take.mkv"));
+    host_->wait_for("recording " + file("disk/take.mkv"));
     wait_for_progress();
     wait_for_progress();
     fill_disk();
-    wait_for(*host_, "No space left on device");
+    host_->wait_for("No space left on device");
     wait_for_progress();
     wait_for_progress();
 

@@ -50,9 +50,9 @@ TEST_F(PtpMasters, ChangeWithoutALostFrameOrTick) {
                 folder_.path().string(), VANTAGE_RIG_PROGRAM, "run", "--config", file("far.toml")},
             folder_.path());
     });
-    wait_for(*far_, "publishing on");
+    far_->wait_for("publishing on");
     start_host({"--seconds", "600"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     ASSERT_TRUE(eventually([&] { return choices() >= 1; })) << far_->err();
 

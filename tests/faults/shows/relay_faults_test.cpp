@@ -32,7 +32,7 @@ class RelayFaults : public TwoRigShow {
                                      "tcp://127.0.0.1:5700", "--rigs-file", file("rigs.toml"),
                                      "--json"},
             folder_.path());
-        wait_for(*relay_, "rig far is connected");
+        relay_->wait_for("rig far is connected");
         ASSERT_TRUE(eventually([&] { return std::filesystem::exists(file("rigs.toml")); }));
     }
     /// The stage that has the relay in the far rig's place.
@@ -49,16 +49,16 @@ TEST_F(RelayFaults, ARelayThatDiesCostsTheTicksAndTheOtherRigNothing) {
     start_relay();
     write_relayed_stage();
     start_host({"--seconds", "600"}, "relayed.toml");
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     // With pictures of one rig it begins.
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err() << relay_->err();
     wait_for_progress();
 
     relay_->send_signal(SIGKILL);
     EXPECT_EQ(relay_->wait().status, 128 + SIGKILL);
-    wait_for(*host_, "rig far is gone");
+    host_->wait_for("rig far is gone");
     // The rig takes note of that and films on.
-    wait_for(*far_, " disconnected");
+    far_->wait_for(" disconnected");
     wait_for_progress();
     EXPECT_LE(sets_until_far_is_back([&] { start_relay(); }), sets_to_recover) << host_->err();
     wait_for_progress();

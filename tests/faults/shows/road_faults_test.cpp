@@ -31,7 +31,7 @@ class RoadFaults : public TwoRigShow {
 
 TEST_F(RoadFaults, HoldTheTicksAndAreOverOnceTheRoadIsWhole) {
     start_host({"--seconds", "600"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
 
     const auto mend_road = [&] { road_->impair({}); };

@@ -38,7 +38,7 @@ class ShowFaults : public TwoRigShow {
 
 TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     start_host({"--seconds", "600"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
 
     road_->impair({.lose_every = 10, .delay = 10ms});
@@ -60,7 +60,7 @@ TEST_F(ShowFaults, HoldTheTicksAndRejoinWhateverBefallsOneRig) {
     EXPECT_EQ(far_->wait().status, 128 + SIGKILL);
     const auto start_again = [&] {
         far_ = start_far();
-        wait_for(*far_, "publishing on");
+        far_->wait_for("publishing on");
     };
     EXPECT_LE(sets_until_far_is_back(start_again), sets_to_recover) << host_->err();
     EXPECT_TRUE(far_is("connected")) << host_->err();
@@ -88,9 +88,9 @@ TEST_F(ShowFaults, ARigThatIsThrottledLosesOnlyItsOwnFramesAndIsNamed) {
     far_->wait();
     const ControlGroup group("cpu");
     group.run_inside([&] { far_ = start_far(); });
-    wait_for(*far_, "publishing on");
+    far_->wait_for("publishing on");
     start_host({"--seconds", "600"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
 
     // As a processor does that is too hot, but by more.
@@ -138,10 +138,10 @@ TEST_F(ShowFaults, ARigThatTheKernelKillsForMemoryIsGoneAloneAndComesBack) {
     group.set("memory.limit_in_bytes", limit_bytes);
     set_oom_score(1000);
     group.run_inside([&] { far_ = start_far(); });
-    wait_for(*far_, "publishing on");
+    far_->wait_for("publishing on");
     set_oom_score(0);
     start_host({"--seconds", "600"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
 
     pid_t hog = -1;
@@ -152,7 +152,7 @@ TEST_F(ShowFaults, ARigThatTheKernelKillsForMemoryIsGoneAloneAndComesBack) {
     ::waitpid(hog, nullptr, 0);
     wait_for_progress();
     far_ = start_far();
-    wait_for(*far_, "publishing on");
+    far_->wait_for("publishing on");
     EXPECT_LE(sets_until_far_is_back([] {}), sets_to_recover) << host_->err();
 
     end_and_expect_trouble_of_far_alone(1);
@@ -160,11 +160,11 @@ TEST_F(ShowFaults, ARigThatTheKernelKillsForMemoryIsGoneAloneAndComesBack) {
 
 TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {
     start_host({"--seconds", "600"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     host_->send_signal(SIGSTOP);
     // The rigs let a host go that says nothing.
-    for (const ChildProgram* rig : {far_.get(), near_.get()}) wait_for(*rig, "is removed");
+    for (const ChildProgram* rig : {far_.get(), near_.get()}) rig->wait_for("is removed");
     EXPECT_LE(frames_beside_until_both_are_back([&] { host_->send_signal(SIGCONT); }),
               sets_to_recover)
         << host_->err();
@@ -186,11 +186,11 @@ TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {
 
 TEST_F(ShowFaults, ARigWhoseClockIsSetIsLeftOutUntilItIsRight) {
     start_host({"--seconds", "600"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     std::size_t times_right = 0;
     const auto expect_to_be_named_until = [&](const std::string& trouble, int right) {
-        wait_for(*host_, trouble);
+        host_->wait_for(trouble);
         far_->send_signal(right);
         ++times_right;
         ASSERT_TRUE(eventually([&] { return count_of("rig far is in step again") == times_right; }))
@@ -220,9 +220,9 @@ TEST_F(ShowFaults, AStepOfARigsClockThatNothingElseShowsIsNamed) {
     far_->wait();
     clock_set_ms_ = 50;
     far_ = start_far();
-    wait_for(*far_, "publishing on");
+    far_->wait_for("publishing on");
     start_host({"--seconds", "600"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     far_->send_signal(SIGUSR1);
     EXPECT_NEAR(named_by_host("rig far: its clock was set once, last by "), 50, 10);
@@ -240,7 +240,7 @@ TEST_F(ShowFaults, AStepOfARigsClockThatNothingElseShowsIsNamed) {
 TEST_F(ShowFaults, AStepOfTheHostsClockIsNamedAndCostsNeitherTicksNorFrames) {
     start_host({"--seconds", "600", "--take", file("take.mkv")}, "stage.toml",
                {"LD_PRELOAD=" + file("clock_set.so"), "CLOCK_SET_MS=60000"});
-    wait_for(*host_, " frames, ");
+    host_->wait_for(" frames, ");
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     const int ahead = SIGUSR1, back = SIGUSR2;
     EXPECT_EQ(sets_until_far_is_back([&] { host_->send_signal(ahead); }), 0) << host_->err();

@@ -36,8 +36,8 @@ void TwoRigShow::SetUp() {
     std::ofstream(file("stage.toml")) << stage_head << far_entry_ << near_entry_ << stage_view;
     far_ = start_far();
     near_ = start_rig("near", 12, fmt::format("bind = \"{}\"\n", near_endpoint_));
-    wait_for(*far_, "publishing on");
-    wait_for(*near_, "publishing on");
+    far_->wait_for("publishing on");
+    near_->wait_for("publishing on");
 }
 
 void TwoRigShow::TearDown() {
@@ -89,12 +89,6 @@ void TwoRigShow::start_host(const std::vector<std::string>& options, const std::
                                        fmt::format("http://:{}", metrics_port)};
     arguments.insert(arguments.end(), options.begin(), options.end());
     host_ = std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path(), environment);
-}
-
-void TwoRigShow::wait_for(const ChildProgram& program, const std::string& words) {
-    ASSERT_TRUE(eventually([&] { return program.err().find(words) != std::string::npos; }))
-        << words << "\n"
-        << program.err();
 }
 
 bool TwoRigShow::far_is(const std::string& state) const {
@@ -184,7 +178,7 @@ void TwoRigShow::expect_ticks_held(const nlohmann::json& summary) {
 }
 
 double TwoRigShow::named_by_host(const std::string& words) const {
-    wait_for(*host_, words);
+    host_->wait_for(words);
     const std::string log = host_->err();
     return std::atof(log.c_str() + log.find(words) + words.size());
 }

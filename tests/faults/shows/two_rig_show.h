@@ -43,7 +43,6 @@ class TwoRigShow : public testing::Test {
                     const std::string& stage = "stage.toml",
                     const std::vector<std::string>& environment = {});
 
-    static void wait_for(const ChildProgram& program, const std::string& words);
     /// The host's last word of the far rig's connection.
     bool far_is(const std::string& state) const;
     /// In the host's log.

@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "tests/support/eventually.h"
+
 namespace vantage {
 
 nlohmann::json event_of(const std::string& out, const std::string& name, std::size_t skip) {
@@ -34,9 +36,9 @@ Attended::Attended(const std::string& program, const std::string& arguments,
 }
 
 nlohmann::json Attended::wait_for(const std::string& event, std::size_t skip) const {
-    for (int i = 0; i < 1500; ++i, usleep(20'000))
-        if (nlohmann::json found = event_of(child_->out(), event, skip); !found.is_null())
-            return found;
+    nlohmann::json found;
+    if (eventually([&] { return !(found = event_of(child_->out(), event, skip)).is_null(); }))
+        return found;
     ADD_FAILURE() << "no " << event << " in: " << child_->out() << child_->err();
     return {{"code", ""}};
 }

@@ -121,7 +121,7 @@ TEST_F(Demo, RigsEndWithTheDemo) {
                       {"demo", "--files", file("left.png"), file("right.png"), "--rigs-only",
                        "--folder", file("out")},
                       folder_.path());
-    for (int tries = 0; tries < 600 && demo.out().empty(); ++tries) ::usleep(100'000);
+    ASSERT_TRUE(eventually([&] { return !demo.out().empty(); })) << demo.err();
     ASSERT_TRUE(demo.out().starts_with("ready: ")) << demo.err();
     const std::string stage = file("out/demo/stage.toml");
     bool served = false;

@@ -64,16 +64,10 @@ class LiveProcesses : public testing::Test {
         return std::make_unique<ChildProgram>(VANTAGE_PROGRAM, arguments, folder_.path());
     }
 
-    /// Waits until the program has logged these words, at most a minute.
-    static void wait_for(const ChildProgram& program, const char* words) {
-        for (int i = 0; i < 6000 && program.err().find(words) == std::string::npos; ++i)
-            usleep(10'000);
-    }
-
     /// Turns the camera by 18 degrees from the first rig's position, in a window of 640x360.
     static void turn_by_mouse_and_quit(const VirtualScreen& screen, const ChildProgram& host) {
         // The camera is at the first rig once the stage is known.
-        wait_for(host, "azimuth -12.0");
+        host.wait_for("azimuth -12.0");
         screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
         // Show the picture alone, so that it is as wide as the window.
         screen.operator_input({"key", "Tab", "sleep", "1"});
@@ -81,7 +75,7 @@ class LiveProcesses : public testing::Test {
         // from the first rig's position.
         screen.operator_input({"mousemove", "320", "120", "mousedown", "1", "mousemove", "384",
                                "120", "mouseup", "1"});
-        wait_for(host, "azimuth -30.0");
+        host.wait_for("azimuth -30.0");
         screen.operator_input({"key", "Escape", "Escape"});
     }
 
@@ -197,7 +191,7 @@ TEST_F(LiveProcesses, SendTheProgrammeToSeveralOutputsThoughOneFails) {
 
 TEST_F(LiveProcesses, ContinueWithoutAMissingRig) {
     start_rig("left", 0);
-    wait_for(*rigs_[0], "publishing on");
+    rigs_[0]->wait_for("publishing on");
     const auto host = start_host({"--frames", "2", "--json", "--wait", "4"});
     ASSERT_EQ(host->wait().status, 0) << host->err();
     // Longer than 4 s if the other rig still reported that it started.
@@ -244,7 +238,7 @@ TEST_F(LiveProcesses, ApplyTheStagesColourCorrectionToEveryRig) {
 
 TEST_F(LiveProcesses, NameTheMissingRigsWhenInterruptedWhileWaiting) {
     const auto host = start_host({"--wait", "600", "--snapshot", file("last.png")});
-    wait_for(*host, "waiting for the first frames of 2 rigs");
+    host->wait_for("waiting for the first frames of 2 rigs");
     host->send_signal(SIGINT);
     EXPECT_EQ(host->wait().status, 130);
     for (const char* rig : {"left disconnected", "right disconnected"})
@@ -367,7 +361,7 @@ TEST_F(LiveProcesses, LeaveATraceThatCanBeReadWhenKilled) {
     start_rig("left", -12);
     start_rig("right", 12);
     const auto host = start_host({"--trace", file("trace.json"), "--wait", "60"});
-    wait_for(*host, first_progress);
+    host->wait_for(first_progress);
     host->send_signal(SIGKILL);
     EXPECT_EQ(host->wait().status, 128 + SIGKILL);
     std::stringstream text;
@@ -395,7 +389,7 @@ TEST_P(GpuTroubles, AreSurvivedWithoutLosingATick) {
                       {"live", "--stage", file("stage.toml"), "--headless", "--rate", "10",
                        "--frames", "120", "--snapshot", file("last.png"), "--json", "--wait", "60"},
                       folder_.path(), {"LD_PRELOAD=" + file("gpu_reset.so")});
-    wait_for(host, first_progress);
+    host.wait_for(first_progress);
     host.send_signal(GetParam());
     const ProgramResult result = host.wait();
     ASSERT_EQ(result.status, 0) << result.err;
@@ -414,7 +408,7 @@ TEST_F(LiveProcesses, FinishTheFilesWhenInterrupted) {
     start_rig("left", -12);
     start_rig("right", 12);
     const auto host = start_host({"--record", file("flight.mkv"), "--json", "--wait", "60"});
-    wait_for(*host, first_progress);
+    host->wait_for(first_progress);
     host->send_signal(SIGINT);
     EXPECT_EQ(host->wait().status, 130) << host->err();
     EXPECT_GE(nlohmann::json::parse(host->out())["pictures"], 1);

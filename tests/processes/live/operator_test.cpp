@@ -20,6 +20,7 @@
 #include "tests/processes/live/attended.h"
 #include "tests/processes/live/camera_on_air.h"
 #include "tests/processes/live/steered_show.h"
+#include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 
 namespace vantage {
@@ -124,13 +125,12 @@ class WholeShow : public testing::Test {
     void expect_time_code_of(std::uint64_t pulse) const {
         const TimecodeClock clock(show_rate_hz);
         std::string told;
-        for (int i = 0; i < 500; ++i, usleep(20'000)) {
+        EXPECT_TRUE(eventually([&] {
             told = show_->lamp("timecode");
             // The computer's clock may or may not know TAI.
-            for (const int offset_s : {0, 37})
-                if (told == clock.of_pulse(pulse, offset_s)) return;
-        }
-        ADD_FAILURE() << told << " is not the time code of pulse " << pulse;
+            return told == clock.of_pulse(pulse, 0) || told == clock.of_pulse(pulse, 37);
+        })) << told
+            << " is not the time code of pulse " << pulse;
     }
     /// Waits until the value has been stable for longer than the lamps' period.
     std::uint64_t settled_pulse() const {
@@ -143,13 +143,13 @@ class WholeShow : public testing::Test {
         return std::stoull(told);
     }
     Clip clip() const {
-        for (int i = 0; i < 500; ++i, usleep(20'000))
-            if (std::filesystem::exists(file("stage.clips.toml")))
-                if (const ClipBook book = load_clips(file("stage.clips.toml"), show_rate_hz);
-                    book.clips.contains(1))
-                    return book.clips.at(1);
-        ADD_FAILURE() << "the clip was not kept";
-        return {};
+        ClipBook book;
+        EXPECT_TRUE(eventually([&] {
+            if (!std::filesystem::exists(file("stage.clips.toml"))) return false;
+            book = load_clips(file("stage.clips.toml"), show_rate_hz);
+            return book.clips.contains(1);
+        })) << "the clip was not kept";
+        return book.clips[1];
     }
 
     /// Notes the present state; its picture is checked when the film has ended.

@@ -18,6 +18,7 @@
 #include "tests/processes/live/steered_show.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 
 namespace vantage {
@@ -68,15 +69,13 @@ class ReplayShow : public testing::Test {
         ASSERT_TRUE(shows("clips", clips));
     }
     Clip clip(int number) const {
-        for (int i = 0; i < 500; ++i) {
-            if (std::filesystem::exists(file("stage.clips.toml"))) {
-                const ClipBook book = load_clips(file("stage.clips.toml"), rate_hz);
-                if (const auto found = book.clips.find(number); found != book.clips.end())
-                    return found->second;
-            }
-            usleep(20'000);
-        }
-        return {};
+        ClipBook book;
+        EXPECT_TRUE(eventually([&] {
+            if (!std::filesystem::exists(file("stage.clips.toml"))) return false;
+            book = load_clips(file("stage.clips.toml"), rate_hz);
+            return book.clips.contains(number);
+        }));
+        return book.clips[number];
     }
 
     /// Checks the camera of every tick in the take, over all clips and the return to live.

@@ -43,8 +43,7 @@ class RigReports : public testing::Test {
         rig_ = std::make_unique<ChildProgram>(
             VANTAGE_RIG_PROGRAM, std::vector<std::string>{"run", "--config", file("north.toml")},
             folder_.path());
-        for (int i = 0; i < 6000 && rig_->err().find("publishing on") == std::string::npos; ++i)
-            usleep(10'000);
+        rig_->wait_for("publishing on");
     }
 
     std::string file(const std::string& name) const { return (folder_.path() / name).string(); }

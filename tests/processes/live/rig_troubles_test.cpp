@@ -12,6 +12,7 @@
 #include "common/wire/curve_keys.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 
 namespace vantage {
@@ -57,12 +58,6 @@ class RigTroubles : public testing::Test {
         return run_to_end(VANTAGE_PROGRAM, arguments);
     }
 
-    /// Waits until the program has logged these words, at most a minute.
-    static void wait_for(const ChildProgram& program, const std::string& words) {
-        for (int i = 0; i < 6000 && program.err().find(words) == std::string::npos; ++i)
-            usleep(10'000);
-    }
-
     TemporaryFolder folder_;
     const std::pair<int, int> ports_ = two_free_ports();
 };
@@ -85,7 +80,7 @@ TEST_F(RigTroubles, AreReportedWithTheReasonOfEachRig) {
 
 TEST_F(RigTroubles, SayThatAStoppedRigMayBeTheReason) {
     const auto north = start_rig("north", ports_.first, 5);
-    wait_for(*north, "publishing on");
+    north->wait_for("publishing on");
     north->send_signal(SIGSTOP);
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const ProgramResult result = status(5);
@@ -105,7 +100,7 @@ TEST_F(RigTroubles, WithKeysNameTheWrongKey) {
     const auto north =
         start_rig("north", ports_.first, 5,
                   "key_file = \"rig.key\"\nauthorized_hosts = \"authorized_hosts\"\n");
-    wait_for(*north, "publishing on");
+    north->wait_for("publishing on");
     const std::string top = "key_file = \"host.key\"\n";
     // South is the same rig without a key.
     write_stage(endpoint(ports_.first), endpoint(ports_.first),
@@ -130,8 +125,8 @@ TEST_F(RigTroubles, DoNotIncludeArmedRigs) {
     const std::string armed = "[trigger]\nrole = \"lead\"\npretended = true\n";
     const auto north = start_rig("north", ports_.first, 5, armed);
     const auto south = start_rig("south", ports_.second, 5, armed);
-    wait_for(*north, "publishing on");
-    wait_for(*south, "publishing on");
+    north->wait_for("publishing on");
+    south->wait_for("publishing on");
     const ProgramResult result = status(60, true);
     EXPECT_EQ(result.status, 0) << result.err;
     const nlohmann::json told = nlohmann::json::parse(result.out);
@@ -144,8 +139,8 @@ TEST_F(RigTroubles, IncludeARigAtAnotherRate) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const auto north = start_rig("north", ports_.first, 2);
     const auto south = start_rig("south", ports_.second, 5);
-    wait_for(*north, "publishing on");
-    wait_for(*south, "publishing on");
+    north->wait_for("publishing on");
+    south->wait_for("publishing on");
     const ProgramResult result = status(60, true);
     EXPECT_EQ(result.status, 1);
     EXPECT_THAT(result.err, HasSubstr("north: it runs at 2 Hz and the stage at 5 Hz"));
@@ -159,13 +154,13 @@ TEST_F(RigTroubles, OfACommonRateLeaveASignal) {
     write_stage(endpoint(ports_.first), endpoint(ports_.second));
     const auto north = start_rig("north", ports_.first, 4);
     const auto south = start_rig("south", ports_.second, 4);
-    wait_for(*north, "publishing on");
-    wait_for(*south, "publishing on");
+    north->wait_for("publishing on");
+    south->wait_for("publishing on");
     ChildProgram host(VANTAGE_PROGRAM,
                       {"live", "--stage", file("stage.toml"), "--headless", "--json", "--seconds",
                        "600", "--wait", "60"},
                       folder_.path());
-    wait_for(host, " 2 of 2 rigs");
+    host.wait_for(" 2 of 2 rigs");
     const ProgramResult looked = status(60, true);
     EXPECT_EQ(looked.status, 1);
     EXPECT_THAT(looked.err, HasSubstr("north: it runs at 4 Hz and the stage at 5 Hz"));
@@ -191,9 +186,9 @@ TEST_F(RigTroubles, AreCountedWhenARigRestarts) {
                       {"live", "--stage", file("stage.toml"), "--headless", "--json", "--seconds",
                        "600", "--wait", "60"},
                       folder_.path());
-    wait_for(host, " pictures, ");
+    host.wait_for(" frames, ");
     north->send_signal(SIGKILL);
-    wait_for(host, "rig north is gone");
+    host.wait_for("rig north is gone");
     // Its port is free when it has ended, which may be later than its connections.
     EXPECT_EQ(north->wait().status, 128 + SIGKILL);
     north = start_rig("north", ports_.first, 5);
@@ -202,8 +197,7 @@ TEST_F(RigTroubles, AreCountedWhenARigRestarts) {
         const std::string log = host.err();
         return log.rfind("rig north is connected") > log.rfind("rig north is gone");
     };
-    for (int i = 0; i < 20000 && !back(); ++i) usleep(10'000);
-    ASSERT_TRUE(back()) << host.err() << "\nthe rig: " << north->err();
+    ASSERT_TRUE(eventually(back)) << host.err() << "\nthe rig: " << north->err();
     sleep(2);
     host.send_signal(SIGINT);
     const ProgramResult result = host.wait();
@@ -260,7 +254,7 @@ TEST_F(RigTroubles, OfASlowStartDoNotKeepARigFromThePlan) {
                       {"rigs", "plan", "--stage", file("stage.toml"), "--seconds", "1", "--wait",
                        "60", "--start", "--json"},
                       folder_.path());
-    wait_for(plan, "the stage's first pulse is");
+    plan.wait_for("the stage's first pulse is");
     south->send_signal(SIGSTOP);
     sleep(3);  // longer than the measurement
     south->send_signal(SIGCONT);

@@ -7,6 +7,7 @@
 
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
+#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -16,7 +17,7 @@ TEST(PtpStateCommand, WritesALineOfJsonWhereNoPtp4lAnswersAndNoFileUnasked) {
     ChildProgram program(VANTAGE_RIG,
                          {"ptp-state", "--json", "--ptp4l", (folder.path() / "none").string()},
                          folder.path());
-    for (int i = 0; i < 3000 && program.out().find('\n') == std::string::npos; ++i) usleep(10'000);
+    EXPECT_TRUE(eventually([&] { return program.out().find('\n') != std::string::npos; }));
     program.send_signal(SIGINT);
     const ProgramResult result = program.wait();
     EXPECT_EQ(result.status, 130) << result.err;
