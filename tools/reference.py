@@ -35,6 +35,8 @@ def help_page(program, path, opening):
 
     def visit(words):
         text = run(path, *words, "--help").rstrip("\n")
+        # CLI11 lists the options that an option excludes or needs by their addresses.
+        text = re.sub(r"(Excludes|Needs):((?: --[\w-]+)+)", lambda m: f"{m[1]}: {' '.join(sorted(m[2].split()))}", text)
         name = " ".join([program, *words])
         sections.append(f"## {name}\n\n```text\n{text}\n```\n")
         listed = re.search(r"^Subcommands:\n(.*?)(?:\n\n|\Z)", text, flags=re.S | re.M)

@@ -33,6 +33,6 @@ done
 for instead in common/datagrams/none/datagram_server.cpp common/datagrams/none/datagram_link.cpp host_app/web/none/web_server.cpp host_app/metrics/none/metrics_server.cpp; do
   command=$(jq -r --arg file "$sources/$instead" '.[] | select(.file == $file) | .command' "$commands")
   [ -n "$command" ] || fault "$instead is not compiled"
-  (cd "$work/without" && bash -c "${command% -c *} -fsyntax-only $sources/$instead") || fault "$instead does not compile"
+  (cd "$work/without" && bash -c "${command% -c *} -fsyntax-only '$sources/$instead'") || fault "$instead does not compile"
 done
 echo "the core is configured without libmicrohttpd, GnuTLS, libsrt and Python"
