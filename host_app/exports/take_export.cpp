@@ -84,7 +84,8 @@ ExportStats export_moments(const TakeReader& take, const ExportFormat& format, c
             ++stats.there;
             continue;
         }
-        // A folder, so that whatever an interrupted process had begun goes with it.
+        // A moment is written in a folder of its own. If the process is killed, the next one
+        // removes all of it.
         const std::filesystem::path partial = folder / ("partial-" + name);
         std::error_code error;
         std::filesystem::remove_all(partial, error);

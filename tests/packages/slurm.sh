@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A long export that Slurm splits: Debian's own slurmctld and slurmd, one node in a container of its own, run the array of
-# docs/operate/exports.md over a take of the demo, and its parts are byte for byte what one process writes. A task that
-# is cancelled half-way leaves nothing that the same array, submitted again, does not complete.
+# A long export that Slurm splits. Debian's own slurmctld and slurmd, with one node in a container, run the array of
+# docs/operate/exports.md over a take of the demo. Its tasks write byte for byte what one process writes. An array that is
+# cancelled half-way and submitted again writes the same too.
 #   tests/packages/slurm.sh
 # After `tools/build.sh release vantage`. Everything goes to out/slurm/; Slurm's packages are unpacked there and not
 # installed. Closes with a line `N passed, N failed`.
@@ -12,18 +12,19 @@ vantage=$PWD/build/release/bin/vantage
 
 # Namespaces of its own: when this ends so does all that it started, and its ports are nobody else's.
 if [ "${1-}" != inside ]; then
-  [ "$(id -u)" -eq 0 ] || exec sudo "$0" "$@"
+  [ "$(id -u)" -eq 0 ] || exec sudo tests/packages/slurm.sh
   rm -rf "$out"
   mkdir -p "$root" "$out/packages"
   chown _apt "$out/packages" 2>/dev/null || true
   (
     cd "$out/packages"
-    # Also the libraries that this computer lacks.
-    missing=$(apt-get install --simulate --no-install-recommends slurmctld slurmd slurm-client munge | awk '/^Inst/ {print $2}')
-    apt-get download -q slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge $missing
+    slurm=(slurmctld slurmd slurm-client slurm-wlm-basic-plugins munge)
+    # The libraries that this computer lacks.
+    mapfile -t libraries < <(apt-get install --simulate --no-install-recommends "${slurm[@]}" | awk '/^Inst/ {print $2}')
+    apt-get download -q "${slurm[@]}" "${libraries[@]}"
     for package in *.deb; do dpkg-deb -x "$package" "$root"; done
   ) >"$out/packages.log" 2>&1 || { tail -n 20 "$out/packages.log" >&2; exit 1; }
-  exec unshare --mount --pid --net --fork --mount-proc --kill-child "$0" inside
+  exec unshare --mount --pid --net --fork --mount-proc --kill-child tests/packages/slurm.sh inside
 fi
 
 checks_log=$out/check.log
@@ -41,8 +42,8 @@ wait_until() { # seconds, command...
 ip link set lo up
 ip address add 192.0.2.1/24 dev lo
 
-"$vantage" demo --headless --seconds 4 --folder "$out/demo" --keep "$out/rigs" >"$out/demo.log" 2>&1
-check "the demo's rigs keep a take" "$vantage" take join "$out"/rigs/*.mkv -o "$out/take.mkv"
+check "the demo's rigs keep takes" "$vantage" demo --headless --seconds 4 --folder "$out/demo" --keep "$out/rigs"
+check "they are joined to one" "$vantage" take join "$out"/rigs/*.mkv -o "$out/take.mkv"
 seconds=$("$vantage" take info "$out/take.mkv" --json | jq '.duration_s | ceil')
 
 libraries=$root/usr/lib/$(dpkg-architecture -q DEB_HOST_MULTIARCH)

@@ -1,10 +1,8 @@
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <numbers>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -160,8 +158,7 @@ TEST_F(LiveCalibration, loses_nothing_when_it_is_interrupted_and_goes_on_from_wh
                            file("A/calibration.yaml"), "--lens", "brown4", "--views", views});
     };
     ChildProgram interrupted(VANTAGE_CALIB, live(asking_for("30")), folder_.path());
-    while (interrupted.err().find("2 kept") == std::string::npos)
-        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    interrupted.wait_for("2 kept");
     interrupted.send_signal(SIGINT);
     const ProgramResult ended = interrupted.wait();
     EXPECT_EQ(ended.status, 130);

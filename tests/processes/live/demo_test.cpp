@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "common/image/image_file.h"
 #include "host_app/commands/demo/demo_stage.h"

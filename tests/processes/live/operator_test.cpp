@@ -142,15 +142,6 @@ class WholeShow : public testing::Test {
         }
         return std::stoull(told);
     }
-    Clip clip() const {
-        ClipBook book;
-        EXPECT_TRUE(eventually([&] {
-            if (!std::filesystem::exists(file("stage.clips.toml"))) return false;
-            book = load_clips(file("stage.clips.toml"), show_rate_hz);
-            return book.clips.contains(1);
-        })) << "the clip was not kept";
-        return book.clips[1];
-    }
 
     /// Notes the present state; its picture is checked when the film has ended.
     void stop_for_a_picture(const std::string& name) {
@@ -228,7 +219,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     press("GPI 5");
     ASSERT_TRUE(shows("clips", "1"));
     EXPECT_TRUE(shows("live", "1"));
-    const Clip marked = clip();
+    const Clip marked = saved_clip(file("stage.clips.toml"), 1, show_rate_hz);
     ASSERT_GE(marked.out, marked.in + 5);
 
     // The instant is frozen, and the camera orbits it.

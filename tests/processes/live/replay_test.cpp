@@ -12,13 +12,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "host_app/replay/clip.h"
 #include "tests/processes/live/steered_show.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
-#include "tests/support/eventually.h"
 #include "tests/support/free_ports.h"
 
 namespace vantage {
@@ -68,15 +66,7 @@ class ReplayShow : public testing::Test {
         ask("make_clip");
         ASSERT_TRUE(shows("clips", clips));
     }
-    Clip clip(int number) const {
-        ClipBook book;
-        EXPECT_TRUE(eventually([&] {
-            if (!std::filesystem::exists(file("stage.clips.toml"))) return false;
-            book = load_clips(file("stage.clips.toml"), rate_hz);
-            return book.clips.contains(number);
-        }));
-        return book.clips[number];
-    }
+    Clip clip(int number) const { return saved_clip(file("stage.clips.toml"), number, rate_hz); }
 
     /// Checks the camera of every tick in the take, over all clips and the return to live.
     void expect_the_camera_to_have_flown_without_a_jump() const {

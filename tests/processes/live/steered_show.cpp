@@ -66,4 +66,15 @@ bool SteeredShow::goes_past(const std::string& name, double value) const {
     });
 }
 
+Clip saved_clip(const std::filesystem::path& file, int number, double pulse_rate_hz) {
+    ClipBook book;
+    EXPECT_TRUE(eventually([&] {
+        if (!std::filesystem::exists(file)) return false;
+        book = load_clips(file, pulse_rate_hz);
+        return book.clips.contains(number);
+    })) << file
+        << " has no clip " << number;
+    return book.clips[number];
+}
+
 }  // namespace vantage

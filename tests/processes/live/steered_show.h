@@ -1,11 +1,13 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "host_app/replay/clip.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
 
@@ -37,5 +39,8 @@ class SteeredShow {
     int port_;
     ChildProgram watcher_, show_;
 };
+
+/// Waits until a show has saved the clip with this number; the failure names the file.
+Clip saved_clip(const std::filesystem::path& file, int number, double pulse_rate_hz);
 
 }  // namespace vantage

@@ -14,7 +14,6 @@
 #include "common/image/image_file.h"
 #include "tests/support/child_program.h"
 #include "tests/support/data_folder.h"
-#include "tests/support/eventually.h"
 
 namespace vantage {
 namespace {
@@ -99,8 +98,7 @@ TEST_F(RunCommandTest, EndsInOrderWhenAskedTo) {
     for (const int signal : {SIGTERM, SIGINT}) {
         ChildProgram rig(VANTAGE_RIG, {"run", "--config", write_config(small_stage), "--json"},
                          folder_.path());
-        while (rig.err().find("publishing on") == std::string::npos)
-            std::this_thread::sleep_for(10ms);
+        rig.wait_for("publishing on");
         std::this_thread::sleep_for(300ms);
         rig.send_signal(signal);
         const ProgramResult result = rig.wait();
@@ -116,8 +114,7 @@ TEST_F(RunCommandTest, GoesOnWhenItsClockIsSetByHours) {
         ChildProgram rig(
             VANTAGE_RIG, {"run", "--config", write_config(small_stage), "--frames", "30", "--json"},
             folder_.path(), {"LD_PRELOAD=" + at("clock_set.so").string(), "CLOCK_SET_MS=7200000"});
-        ASSERT_TRUE(
-            eventually([&] { return rig.err().find("publishing on") != std::string::npos; }));
+        rig.wait_for("publishing on");
         std::this_thread::sleep_for(500ms);
         rig.send_signal(signal);
         const ProgramResult result = rig.wait();
@@ -252,7 +249,7 @@ TEST_F(RunCommandTest, SendsPulsesAtOnceOrWaitsForTheHostsWord) {
         small_stage + "[trigger]\nrole = \"lead\"\npretended = true\nlate_limit_us = 1000000\n";
     ChildProgram rig(VANTAGE_RIG, {"run", "--config", write_config(lead), "--json"},
                      folder_.path());
-    ASSERT_TRUE(eventually([&] { return rig.err().find("publishing on") != std::string::npos; }));
+    rig.wait_for("publishing on");
     // At 10 Hz: time for as many pictures as a rig without a trigger would have filmed.
     std::this_thread::sleep_for(1s);
     rig.send_signal(SIGTERM);

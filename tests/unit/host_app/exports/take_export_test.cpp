@@ -363,7 +363,7 @@ TEST_F(TakeExportTest, ResumesAnInterruptedExport) {
     const std::string whole = text("points/000003.ply");
     std::filesystem::remove(path("points/000003.ply"));
     std::ofstream(path("points/000006.ply")) << "mine";
-    // What a killed process leaves.
+    // A killed process leaves the beginning of a file in the folder of its moment.
     std::filesystem::create_directory(path("points/partial-000003.ply"));
     std::ofstream(path("points/partial-000003.ply/000003.ply.partial-7")) << "half";
     std::vector<double> told;
