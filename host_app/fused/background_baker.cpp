@@ -37,9 +37,17 @@ void BackgroundBaker::forget() {
     modelled_.clear();
     surfaces_.drop_free();
     placed_for_.clear();
-    probes_.clear();
     baked_.reset();
+    for (Probe& probe : std::exchange(probes_, {})) retire(std::move(probe.made));
     changed_s_ = -1;
+}
+
+void BackgroundBaker::retire(std::shared_ptr<const BackgroundProbe> probe) {
+    if (probe) retired_.push_back(std::move(probe));
+}
+
+void BackgroundBaker::release_unused() {
+    std::erase_if(retired_, [](const auto& probe) { return probe.use_count() == 1; });
 }
 
 void BackgroundBaker::bake_anew() {
@@ -208,7 +216,7 @@ void BackgroundBaker::take_over(const ProbeTiles& tiles) {
     probe.rest_s = was_refined
                        ? std::clamp(2 * probe.rest_s, first_probe_rest_s, longest_probe_rest_s)
                        : first_probe_rest_s;
-    probe.made = std::make_shared<const BackgroundProbe>(tiles);
+    retire(std::exchange(probe.made, std::make_shared<const BackgroundProbe>(tiles)));
     probe.made_s = on_thread_->begun_s;
     probe.is_rough = on_thread_->is_rough;
     probe.matches = on_thread_->matches;

@@ -44,6 +44,9 @@ class BackgroundBaker {
     /// with the learnt colours. Precondition: the rig has a model.
     std::shared_ptr<const RigSurface> surface_of(const RigHistory& rig);
     void forget();
+    /// Destroys what was baked before and no instant holds any more. Instants end on any thread,
+    /// and GL objects only on this one.
+    void release_unused();
 
   private:
     struct Probe {
@@ -69,6 +72,8 @@ class BackgroundBaker {
         int matches = 0;       ///< the sum of the models' RigHistory::Model::matches
     };
 
+    /// Keeps a probe that was replaced until release_unused().
+    void retire(std::shared_ptr<const BackgroundProbe> probe);
     void place_probes(std::span<RigHistory* const> rigs);
     /// Returns the probes in the order of their ways to a view.
     std::vector<std::size_t> nearest_first(const VirtualView& view) const;
@@ -102,6 +107,7 @@ class BackgroundBaker {
     std::map<std::string, ModelSurface> modelled_;  ///< by rig
     std::vector<ProbeRig> placed_for_;
     std::vector<Probe> probes_;
+    std::vector<std::shared_ptr<const BackgroundProbe>> retired_;
     double parallax_px_m_ = 0;
     double changed_s_ = -1;
     std::optional<Drawing> drawing_;

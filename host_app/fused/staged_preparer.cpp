@@ -61,6 +61,7 @@ StagedPreparer::StagedPreparer(const ShaderLibrary& library)
 
 void StagedPreparer::take(std::span<const DepthView> views, double dt_s) {
     now_s_ += dt_s;
+    baker_.release_unused();
     uploaded_ = rigs_.upload(views, dt_s);
     for (RigHistory* rig : uploaded_) begin_with_learnt(*rig);
     learnt_.clear();

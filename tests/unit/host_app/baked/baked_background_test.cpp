@@ -1,3 +1,5 @@
+#include <thread>
+
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -110,6 +112,19 @@ TEST_F(BakedBackgroundTest, IsBakedAnewAfterAChange) {
     bool is_back = false;
     for (int i = 0; i < most && !is_back; ++i) is_back = is_baked(*next(refined));
     EXPECT_TRUE(is_back);
+}
+
+/// Instants end on any thread; a texture that ends without a context would stay in the driver.
+TEST_F(BakedBackgroundTest, EndsOnItsOwnThread) {
+    std::shared_ptr<const Instant> instant = baked();
+    ASSERT_NE(instant, nullptr);
+    const std::weak_ptr<const BackgroundProbe> probe =
+        dynamic_cast<const BakedExtra&>(*instant->extra).background.probes.at(0);
+    preparer_.background_access()->learn_anew();
+    std::thread([&] { instant.reset(); }).join();
+    EXPECT_FALSE(probe.expired());
+    (void)next();
+    EXPECT_TRUE(probe.expired());
 }
 
 TEST_F(BakedBackgroundTest, IsNotDrawnAtTheBestLevel) {
