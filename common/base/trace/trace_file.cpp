@@ -1,7 +1,6 @@
 #include "common/base/trace/trace_file.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
 #include <cerrno>
@@ -17,7 +16,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
-#include <pthread.h>
 #include <unistd.h>
 
 #include "common/base/error.h"
@@ -33,12 +31,7 @@ namespace {
 /// Name that name_trace_track() gave this thread; empty: none.
 thread_local std::string track_name;
 
-std::string name_of_this_thread() {
-    if (!track_name.empty()) return track_name;
-    std::array<char, 16> name{};
-    ::pthread_getname_np(::pthread_self(), name.data(), name.size());
-    return name.data();
-}
+std::string name_of_this_thread() { return track_name.empty() ? this_thread_name() : track_name; }
 
 /// The spans of one thread that wait for the file. Its thread pushes, the file's thread pops.
 class Ring {

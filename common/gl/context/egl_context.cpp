@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include <EGL/eglext.h>
 #include <fcntl.h>
@@ -239,14 +240,25 @@ void EglContext::try_gbm() {
     if (!any) attempts_.push_back({"gbm", "no render node /dev/dri/renderD*"});
 }
 
+namespace {
+
+/// CurrentContext::is_none(). Thread-local, like the current context.
+thread_local bool has_none = false;
+
+}  // namespace
+
 CurrentContext::CurrentContext()
     : display_(eglGetCurrentDisplay()),
       previous_display_(display_),
       previous_draw_(eglGetCurrentSurface(EGL_DRAW)),
       previous_read_(eglGetCurrentSurface(EGL_READ)),
-      previous_(eglGetCurrentContext()) {}
+      previous_(eglGetCurrentContext()),
+      was_none_(std::exchange(has_none, false)) {}
+
+bool CurrentContext::is_none() { return has_none; }
 
 CurrentContext::CurrentContext(None) : CurrentContext() {
+    has_none = true;
     if (previous_ != EGL_NO_CONTEXT)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
@@ -260,6 +272,7 @@ CurrentContext::CurrentContext(const EglContext& context) : CurrentContext() {
 }
 
 CurrentContext::~CurrentContext() {
+    has_none = was_none_;
     if (previous_ == EGL_NO_CONTEXT && display_ != EGL_NO_DISPLAY)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     else if (previous_ != EGL_NO_CONTEXT)

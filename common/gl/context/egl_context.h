@@ -72,6 +72,8 @@ class CurrentContext {
     /// Makes no context current, so that GL calls do nothing. For destroying objects of lost
     /// contexts, whose names belong to other objects by now.
     explicit CurrentContext(None);
+    /// Whether that was done on this thread.
+    static bool is_none();
     /// Throws Error if the context cannot be made current, such as when it is current on another
     /// thread; ContextLost if the GPU was reset.
     explicit CurrentContext(const EglContext& context);
@@ -86,6 +88,7 @@ class CurrentContext {
     EGLDisplay previous_display_;
     EGLSurface previous_draw_, previous_read_;
     EGLContext previous_;
+    bool was_none_;
 };
 
 }  // namespace vantage

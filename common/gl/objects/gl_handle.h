@@ -6,8 +6,12 @@
 
 namespace vantage {
 
+/// To be called before a GL object is deleted: warns, once a program, if no context is current,
+/// since the object then stays in the driver for ever.
+void expect_current_context();
+
 /// Owns one GL object name and deletes it with Delete. Move-only. A context of its sharing group
-/// must be current at destruction.
+/// must be current at destruction, or CurrentContext::None if the GPU lost it.
 template <auto Delete>
 class GlHandle {
   public:
@@ -27,7 +31,9 @@ class GlHandle {
 
   private:
     void reset() {
-        if (name_ != 0) Delete(name_);
+        if (name_ == 0) return;
+        expect_current_context();
+        Delete(name_);
         name_ = 0;
     }
     GLuint name_ = 0;

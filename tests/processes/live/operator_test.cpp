@@ -294,6 +294,7 @@ TEST_F(WholeShow, IsPlayedFromSetupToExport) {
     const ProgramResult end = show_->show().wait();
     const nlohmann::json summary = nlohmann::json::parse(end.out, nullptr, false);
     ASSERT_TRUE(summary.is_object()) << end.out << end.err;
+    EXPECT_EQ(end.err.find("a GPU object ended"), std::string::npos) << end.err;
     for (const nlohmann::json& port : summary["control"]) {
         EXPECT_EQ(port["malformed"], 0) << port;
         EXPECT_EQ(port["unknown"], 0) << port;
