@@ -31,17 +31,24 @@ struct Edges {
     double c1, s1, c2, s2, scale;
 };
 
+/// Relative distance from an edge beyond which it adds less than a double holds.
+constexpr double far_from_edge = 6;
+
+/// The profile of a blurred edge, and without its constant factor the derivative of it.
+double edge_at(double x) { return std::abs(x) > far_from_edge ? std::copysign(1, x) : std::erf(x); }
+double slope_at(double x) { return std::abs(x) > far_from_edge ? 0 : std::exp(-x * x); }
+
 double evaluate(const Parameters& p, const Edges& edges, const Sample& s, Parameters* gradient) {
     const double dx = s.x - p[px], dy = s.y - p[py];
     const auto [c1, s1, c2, s2, scale] = edges;
     // Signed distances from the edges, which have the directions (c, s).
     const double d1 = -s1 * dx + c1 * dy, d2 = -s2 * dx + c2 * dy;
-    const double e1 = std::erf(d1 * scale), e2 = std::erf(d2 * scale);
+    const double e1 = edge_at(d1 * scale), e2 = edge_at(d2 * scale);
     const double value = p[mean] + p[slope_x] * dx + p[slope_y] * dy + p[contrast] * e1 * e2;
     if (gradient) {
         const double peak = 2 * std::numbers::inv_sqrtpi;
-        const double g1 = peak * std::exp(-d1 * d1 * scale * scale) * e2 * p[contrast];
-        const double g2 = peak * std::exp(-d2 * d2 * scale * scale) * e1 * p[contrast];
+        const double g1 = peak * slope_at(d1 * scale) * e2 * p[contrast];
+        const double g2 = peak * slope_at(d2 * scale) * e1 * p[contrast];
         Parameters& g = *gradient;
         g[px] = scale * (g1 * s1 + g2 * s2) - p[slope_x];
         g[py] = -scale * (g1 * c1 + g2 * c2) - p[slope_y];
@@ -121,8 +128,9 @@ std::optional<CornerFit> fit_corner(const GreyImage& picture, const Eigen::Vecto
         const Edges edges(p);
         for (const Sample& s : samples) {
             const double r = evaluate(p, edges, s, &gradient) - s.value;
-            normal.selfadjointView<Eigen::Lower>().rankUpdate(gradient, s.weight);
-            right -= s.weight * r * gradient;
+            const Parameters weighted = s.weight * gradient;
+            normal.noalias() += weighted * gradient.transpose();
+            right -= r * weighted;
         }
         bool improved = false;
         double step_px = 0;
