@@ -44,9 +44,13 @@ ChildProgram::~ChildProgram() { send_signal(SIGKILL); }
 std::string ChildProgram::out() const { return text_of(out_); }
 std::string ChildProgram::err() const { return text_of(err_); }
 
-void ChildProgram::wait_for(const std::string& words) const {
-    if (!eventually([&] { return err().find(words) != std::string::npos; }))
-        fail("'{}' is not in the log of a program:\n{}", words, err());
+void ChildProgram::wait_for(const std::string& words) {
+    const auto has_said = [&] { return err().find(words) != std::string::npos; };
+    std::optional<int> status;
+    (void)eventually([&] { return has_said() || (status = ended()); });
+    if (has_said()) return;
+    fail("'{}' is not in the log of a program{}:\n{}", words,
+         status ? fmt::format(" that ended with status {}", *status) : "", err());
 }
 
 ProgramResult ChildProgram::wait() { return {process_.wait(), out(), err()}; }

@@ -30,8 +30,8 @@ class ChildProgram {
     /// The output so far.
     std::string out() const;
     std::string err() const;
-    /// Waits until it has logged these words. Throws Error, with its log, if it does not.
-    void wait_for(const std::string& words) const;
+    /// Waits until it has logged these words. Throws Error, with its log, if it does not or ends.
+    void wait_for(const std::string& words);
     /// Waits for the end.
     ProgramResult wait();
     /// The status as from wait(), if the process has ended.

@@ -164,7 +164,7 @@ TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {
     ASSERT_TRUE(eventually([&] { return far_is("connected"); })) << host_->err();
     host_->send_signal(SIGSTOP);
     // The rigs let a host go that says nothing.
-    for (const ChildProgram* rig : {far_.get(), near_.get()}) rig->wait_for("is removed");
+    for (ChildProgram* rig : {far_.get(), near_.get()}) rig->wait_for("is removed");
     EXPECT_LE(frames_beside_until_both_are_back([&] { host_->send_signal(SIGCONT); }),
               sets_to_recover)
         << host_->err();

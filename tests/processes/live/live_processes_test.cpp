@@ -64,7 +64,7 @@ class LiveProcesses : public testing::Test {
     }
 
     /// Turns the camera by 18 degrees from the first rig's position, in a window of 640x360.
-    static void turn_by_mouse_and_quit(const VirtualScreen& screen, const ChildProgram& host) {
+    static void turn_by_mouse_and_quit(const VirtualScreen& screen, ChildProgram& host) {
         // The camera is at the first rig once the stage is known.
         host.wait_for("azimuth -12.0");
         screen.operator_input({"search", "--sync", "--name", "Vantage", "windowfocus"});
