@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <ceres/jet.h>
 
@@ -96,9 +97,9 @@ bool CornerCost::Evaluate(double const* const* parameters, double* residual,
     const ChangedPose camera(camera_.camera_from_rig, parameters[camera_block]),
         rig(world_from_rig_, parameters[rig_block]),
         board(world_from_board_, parameters[board_block]);
-    Eigen::Vector3d on_board = corner_m_;
-    if (board_from_face_)
-        on_board = ChangedPose(*board_from_face_, parameters[face_block])(corner_m_);
+    std::optional<ChangedPose> face;
+    if (board_from_face_) face.emplace(*board_from_face_, parameters[face_block]);
+    const Eigen::Vector3d on_board = face ? (*face)(corner_m_) : corner_m_;
     const Eigen::Vector3d in_world = board(on_board), in_rig = rig.inverse(in_world),
                           p = camera(in_rig);
     if (!(p.z() > 1e-9)) return false;
@@ -137,9 +138,9 @@ bool CornerCost::Evaluate(double const* const* parameters, double* residual,
     if (jacobians[rig_block]) tell(rig_block, rig.inverse_by_change(in_world));
     by_point *= rig.by_point().transpose();
     if (jacobians[board_block]) tell(board_block, board.by_change(on_board));
-    if (!board_from_face_ || !jacobians[face_block]) return true;
+    if (!face || !jacobians[face_block]) return true;
     by_point *= board.by_point();
-    tell(face_block, ChangedPose(*board_from_face_, parameters[face_block]).by_change(corner_m_));
+    tell(face_block, face->by_change(corner_m_));
     return true;
 }
 

@@ -50,7 +50,7 @@ if [ ! -e "$made/complete" ]; then
 fi
 pack build/release "$out/packages"
 declare -A packages=([old]=$made/packages [new]=$out/packages)
-unpack() { # old or new, root
+unpack() { # old or new, folder
   mkdir -p "$2"
   local package
   for package in vantage-rig vantage; do dpkg-deb -x "${packages[$1]}/${package}"_*.deb "$2"; done
@@ -105,7 +105,7 @@ authorized_hosts = "../hosts.keys"
 TOML
   printf '[[rigs]]\nname = "%s"\nendpoint = "tcp://127.0.0.1:%s"\npublic_key_file = "%s.pub"\n' "$rig" "${port[$rig]}" "$rig" \
     >>"$out/first/stage.toml"
-  unpack old "$out/$rig/root"
+  unpack old "$out/$rig/installed"
   azimuth_deg=$((azimuth_deg + 20))
 done
 for file in desk flight; do cp "tests/previous_version/stage.$file.toml" "$out/first/"; done
@@ -128,7 +128,7 @@ count_of() { grep -c -e "$2" "$out/$1.log" || true; } # process, words
 has_said() { [ "$(count_of "$1" "$2")" -ge "$3" ]; }
 until_says() { until_true "$1" "'$2', ${3:-1} times" has_said "$1" "$2" "${3:-1}"; } # process, words, times
 start_rig() { # rig
-  "$out/$1/root/usr/bin/vantage-rig" run --config "$out/$1/rig.toml" --json >"$out/$1.json" 2>"$out/$1.log" &
+  "$out/$1/installed/usr/bin/vantage-rig" run --config "$out/$1/rig.toml" --json >"$out/$1.json" 2>"$out/$1.log" &
   process[$1]=$!
   until_says "$1" 'publishing on'
 }
@@ -142,7 +142,7 @@ end() { # process
 }
 upgrade_rig() { # rig: as apt does it
   check "$1 of the older version ends in order" end "$1"
-  unpack new "$out/$1/root"
+  unpack new "$out/$1/installed"
   # What only this version knows; the older host gets its frames over TCP.
   [ "$1" != west ] || echo 'road = "srt"' >>"$out/$1/rig.toml"
   start_rig "$1"

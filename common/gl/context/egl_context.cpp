@@ -19,6 +19,9 @@
 namespace vantage {
 namespace {
 
+/// CurrentContext::is_none(). Thread-local, like the current context.
+thread_local bool has_none = false;
+
 bool lists_extension(const char* extensions, const char* wanted) {
     if (!extensions) return false;
     const std::size_t length = std::strlen(wanted);
@@ -239,13 +242,6 @@ void EglContext::try_gbm() {
     }
     if (!any) attempts_.push_back({"gbm", "no render node /dev/dri/renderD*"});
 }
-
-namespace {
-
-/// CurrentContext::is_none(). Thread-local, like the current context.
-thread_local bool has_none = false;
-
-}  // namespace
 
 CurrentContext::CurrentContext()
     : display_(eglGetCurrentDisplay()),

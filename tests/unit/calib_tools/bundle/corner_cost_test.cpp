@@ -1,11 +1,10 @@
 #include "calib_tools/bundle/corner_cost.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
-
-#include "calib_tools/bundle/lens_projection.h"
 
 namespace vantage {
 namespace {
