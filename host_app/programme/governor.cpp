@@ -13,9 +13,8 @@ namespace {
 /// `far_off` times its share counts twice.
 constexpr int max_misfits = 3;
 constexpr double far_off = 2;
-/// The level rises if the next better one is expected to take less than this share of its time. For
-/// a level that was not tried the expectation is the present time multiplied by `untried_ratio`.
-constexpr double room = 0.75, untried_ratio = 1.6;
+/// The level rises if the next better one is expected to take less than this share of its time.
+constexpr double room = 0.75;
 /// Wait before the level rises: before the first fall, after it, and at most.
 constexpr double min_wait_s = 0.5, first_wait_s = 2, max_wait_s = 60;
 /// Rising was a mistake if the level has to fall within this time.
@@ -25,6 +24,9 @@ constexpr double mean_share = 0.2;
 /// Shares of a tick for rendering and of the time between two pulses for preparing. Rendering has
 /// priority over preparing and so delays instants. The time of preparing includes these delays.
 constexpr double full_rendering_share = 0.65, preparing_share = 0.7;
+/// Time to prepare an instant at the best level over that at the next one, on a software renderer:
+/// it fuses the rigs' surfaces in every instant, and all others draw the baked background.
+constexpr double best_preparing_ratio = 4;
 /// Share of the time between two pulses for the moments that are prepared in slow motion.
 constexpr double moments_share = 0.9;
 /// Frames may take this much more of the time than the share by which their level is chosen.
@@ -43,8 +45,12 @@ double seconds(MonotonicTime from, MonotonicTime to) {
 
 }  // namespace
 
-LevelChooser::LevelChooser(std::size_t levels, double share)
-    : share_(share), usual_ms_(levels), spent_s_(levels), wait_s_(first_wait_s) {}
+LevelChooser::LevelChooser(std::size_t levels, double share, double best_level_ratio)
+    : share_(share),
+      best_level_ratio_(best_level_ratio),
+      usual_ms_(levels),
+      spent_s_(levels),
+      wait_s_(first_wait_s) {}
 
 void LevelChooser::begin_with_the_cheapest() {
     level_ = usual_ms_.size() - 1;
@@ -98,11 +104,11 @@ void LevelChooser::saw(std::size_t level, double work_ms, double time_ms, Monoto
     }
     if (level_ == 0) return;
     const std::optional<double>& refine_ms = usual_ms_[level_ - 1];
-    const double expected_ms = untried_ratio * *usual_ms;
+    const double expected_ms = (level_ == 1 ? best_level_ratio_ : untried_ratio) * *usual_ms;
     const bool fits = std::min(refine_ms.value_or(expected_ms), expected_ms) <= room * allowed_ms;
     // If most of the time is the same at every level, an untried one takes less than expected, so
-    // it is tried once this level has room.
-    const bool is_worth_a_try = !refine_ms && *usual_ms <= room * allowed_ms;
+    // it is tried once although it is expected to take a little too long.
+    const bool is_worth_a_try = !refine_ms && expected_ms <= untried_ratio * room * allowed_ms;
     if (!fits && !is_worth_a_try) {
         fitting_since_.reset();
         return;
@@ -170,7 +176,7 @@ Governor::Governor(double rate_hz, double pulse_rate_hz, const QualityRequest& r
       reprojected_frame_ms_(std::max(tick_ms_, std::min(max_frame_ms, 0.5 * instant_ms_))),
       rendering_share_(full_rendering_share),
       render_(render_levels().size(), full_rendering_share),
-      prepare_(prepare_levels().size(), preparing_share) {
+      prepare_(prepare_levels().size(), preparing_share, best_preparing_ratio) {
     // The level is raised from the cheapest one, so that frames are in time from the start.
     if (!request.level) {
         render_.begin_with_the_cheapest();

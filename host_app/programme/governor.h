@@ -17,8 +17,9 @@ namespace vantage {
 /// oscillation. Not thread-safe.
 class LevelChooser {
   public:
-    /// Work may take `share` of the time.
-    LevelChooser(std::size_t levels, double share);
+    /// Work may take `share` of the time. `best_level_ratio` is the time of the best level over that
+    /// of the next one, as long as neither was measured here.
+    LevelChooser(std::size_t levels, double share, double best_level_ratio = untried_ratio);
 
     std::size_t level() const { return level_; }
     /// Starts at the cheapest level, and rises quickly until it first has to fall. To be called
@@ -39,9 +40,12 @@ class LevelChooser {
     std::vector<double> shares(MonotonicTime now) const;
 
   private:
+    /// Time of a level that was not tried over that of the next cheaper one.
+    static constexpr double untried_ratio = 1.6;
+
     void go_to(std::size_t level, MonotonicTime now);
 
-    double share_;
+    double share_, best_level_ratio_;
     std::size_t level_ = 0;
     bool is_fixed_ = false, is_risen_to_ = false;
     std::vector<std::optional<double>> usual_ms_;  ///< by level; empty: not tried yet

@@ -109,6 +109,16 @@ TEST_F(LevelChooserTest, TriesALevelThatIsExpectedToMissOnlyOnce) {
     EXPECT_EQ(chooser_.level(), 3u);
 }
 
+TEST_F(LevelChooserTest, ExpectsTheBestLevelToTakeAsManyTimesTheNextOneAsItIsTold) {
+    chooser_ = LevelChooser(4, 0.8, 4);
+    chooser_.begin_with_the_cheapest();
+    const auto cost_ms = [](std::size_t level) { return level == 0 ? 12 : 3; };
+    EXPECT_EQ(run_for(60s, cost_ms).size(), 2u);
+    EXPECT_EQ(chooser_.level(), 1u);
+    run_for(3s, [](std::size_t) { return 1; });
+    EXPECT_EQ(chooser_.level(), 0u) << "four times 1 ms fit";
+}
+
 TEST_F(LevelChooserTest, DoesNotRiseWhileRoomComesAndGoes) {
     for (int i = 0; i < 3; ++i) work(9);
     for (int i = 0; i < 60; ++i) {
