@@ -7,7 +7,8 @@ namespace vantage {
 /// Serialises the threads that call the GL driver. When llvmpipe maps a buffer or uploads a
 /// texture, it walks through the unfinished drawing of every context of the process, without a lock
 /// against the threads that draw there, and crashes occasionally (llvmpipe_flush_resource in Mesa
-/// 22.3; 25.0 has a lock). While a thread waits for the GPU (Fence, SlicedDrawing), it releases the
+/// 22.3). Mesa 25 locks what it walks through, so its threads draw at the same time
+/// (GlInfo::needs_turns). While a thread waits for the GPU (Fence, SlicedDrawing), it releases the
 /// lock. All contexts of a display need it, also those that share nothing. The source has a further
 /// workaround for the same driver (pthread_mutex_destroy).
 class DriverLock {

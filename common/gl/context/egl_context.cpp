@@ -123,8 +123,8 @@ EglContext::EglContext() {
         tried);
 }
 
-EglContext::EglContext(EGLDisplay display, EGLContext shared, bool is_software)
-    : display_(display), hold_(EglDisplayHold::join(display)), is_software_(is_software) {
+EglContext::EglContext(EGLDisplay display, EGLContext shared, bool needs_turns)
+    : display_(display), hold_(EglDisplayHold::join(display)), needs_turns_(needs_turns) {
     if (!has_extension(surfaceless_extension))
         fail("no second OpenGL context: the driver lacks {}", surfaceless_extension);
     // The same configuration, so that every driver allows sharing.
@@ -145,7 +145,7 @@ EglContext::EglContext(EGLDisplay display, EGLContext shared, bool is_software)
 }
 
 EglContext EglContext::sharing_with(const EglContext& other) {
-    return {other.display_, other.context_, other.is_software_};
+    return {other.display_, other.context_, other.needs_turns_};
 }
 
 EglContext::~EglContext() {
@@ -191,9 +191,9 @@ bool EglContext::try_platform(EGLenum platform, void* native_display, const std:
         eglDestroyContext(display, context);
         return report("the context cannot be made current (" + reason + ")");
     }
-    const bool is_software = GlInfo::query().is_software;
+    const GlInfo info = GlInfo::query();
     if (ready()) {
-        if (is_software) {
+        if (info.is_software) {
             eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
             eglDestroyContext(display, context);
             return report("the processor draws here too");
@@ -205,7 +205,8 @@ bool EglContext::try_platform(EGLenum platform, void* native_display, const std:
     display_ = display;
     hold_ = std::move(hold);
     context_ = context;
-    is_software_ = is_software;
+    is_software_ = info.is_software;
+    needs_turns_ = info.needs_turns();
     attempts_.push_back({name, "ok"});
     return true;
 }

@@ -45,12 +45,12 @@ class EglContext {
     EGLDisplay display() const { return display_; }
     /// The mutex that the threads of this display lock while they call the driver (DriverLock);
     /// null if the driver needs none.
-    std::mutex* driver() const { return is_software_ ? hold_.driver() : nullptr; }
+    std::mutex* driver() const { return needs_turns_ ? hold_.driver() : nullptr; }
     bool has_extension(const char* egl_extension) const;
 
   private:
     friend class CurrentContext;
-    EglContext(EGLDisplay display, EGLContext shared, bool is_software);
+    EglContext(EGLDisplay display, EGLContext shared, bool needs_turns);
     bool try_platform(EGLenum platform, void* native_display, const std::string& name,
                       std::shared_ptr<void> native_owner = {});
     void try_devices();
@@ -62,7 +62,7 @@ class EglContext {
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EglDisplayHold hold_;
     EGLContext context_ = EGL_NO_CONTEXT;
-    bool is_software_ = false;
+    bool is_software_ = false, needs_turns_ = false;
 };
 
 /// Makes a context current on this thread during its life, and restores the previous one after it.

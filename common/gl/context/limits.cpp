@@ -1,6 +1,8 @@
 #include "common/gl/context/limits.h"
 
+#include <charconv>
 #include <cstring>
+#include <string_view>
 
 #include <GLES2/gl2ext.h>
 
@@ -46,6 +48,16 @@ GlInfo GlInfo::query() {
     info.is_software = info.renderer.find("llvmpipe") != std::string::npos ||
                        info.renderer.find("softpipe") != std::string::npos;
     return info;
+}
+
+bool GlInfo::needs_turns() const {
+    constexpr int first_without = 25;
+    const std::string_view mark = "Mesa ";
+    const std::size_t at = version.find(mark);
+    int major = 0;
+    if (at != std::string::npos)
+        std::from_chars(version.data() + at + mark.size(), version.data() + version.size(), major);
+    return is_software && major < first_without;
 }
 
 void GlInfo::require_vantage_minimum() const {

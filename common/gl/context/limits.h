@@ -27,6 +27,9 @@ struct GlInfo {
     bool is_software = false;  ///< llvmpipe or softpipe
 
     static GlInfo query();
+    /// Whether threads have to take turns at calling the driver (DriverLock): true for software
+    /// renderers of Mesa before 25, or of an unknown version.
+    bool needs_turns() const;
     /// Throws Error naming the first capability below PiLimits.
     void require_vantage_minimum() const;
 };

@@ -126,7 +126,8 @@ void draw_and_upload(const EglContext& context, const ShaderLibrary& library) {
     EXPECT_EQ(picture.download().at<cv::Vec4b>(side_px / 2, side_px / 2)[0], 255);
 }
 
-/// Without turns llvmpipe reads there what it has freed, and dies if that is overwritten.
+/// Without turns llvmpipe before Mesa 25 reads there what it has freed, and dies if that is
+/// overwritten.
 TEST(DriverLock, KeepsContextsOfAProcessApart) {
     mallopt(M_PERTURB, 165);
     const ShaderFolder folder;

@@ -19,6 +19,22 @@ TEST(GlInfo, DescribesTheContext) {
     EXPECT_GE(info.max_shared_bytes, PiLimits::max_shared_bytes);
 }
 
+TEST(GlInfo, LetsThreadsTakeTurnsAtOldSoftwareRenderers) {
+    GlInfo info;
+    info.is_software = true;
+    const auto needs_turns = [&](const char* version) {
+        info.version = version;
+        return info.needs_turns();
+    };
+    EXPECT_TRUE(needs_turns("OpenGL ES 3.2 Mesa 22.3.6"));
+    EXPECT_TRUE(needs_turns("OpenGL ES 3.2 Mesa 24.2.8-1ubuntu1"));
+    EXPECT_FALSE(needs_turns("OpenGL ES 3.2 Mesa 25.0.7-2~bpo12+1"));
+    EXPECT_TRUE(needs_turns("OpenGL ES 3.2 (another driver)"));
+    EXPECT_TRUE(needs_turns(""));
+    info.is_software = false;
+    EXPECT_FALSE(needs_turns("OpenGL ES 3.1 Mesa 22.3.6")) << "a GPU's driver";
+}
+
 TEST(GlInfo, NamesACapabilityBelowTheMinimum) {
     GlInfo info;
     info.renderer = "Slate 1";
