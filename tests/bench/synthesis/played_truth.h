@@ -8,7 +8,7 @@ namespace vantage {
 
 /// The demo as it is: rigs that are processes of their own, sockets, the governed programme.
 struct PlayedTruth {
-    double rate_hz = 15, seconds = 20;
+    double rate_hz = 25, seconds = 20;
     double settling_s = 5;  ///< at the start, not measured
     std::string quality = "auto";
     std::string strip;  ///< a picture file for some pictures above their truth; may be empty
