@@ -36,8 +36,8 @@ constexpr std::chrono::milliseconds patience{100};
 /// Frames per rig that are encoded in one go. On a busy computer the thread runs rarely and has to
 /// do much at a time, or its queue would grow without bound.
 constexpr std::size_t most_frames_a_rig = 16;
-/// Data that is in memory only for longer than this is logged.
-constexpr std::chrono::seconds long_unwritten{1};
+/// Data that is in memory only for longer than this is a trouble, and a sync that takes longer.
+constexpr std::chrono::seconds long_unwritten{1}, long_sync{3};
 /// Samples per block of sound in the file.
 constexpr std::int64_t sound_block = sound_rate_hz / 10;
 /// Sound kept until the first frame comes: it may have been heard since that frame's exposure.
@@ -103,12 +103,30 @@ struct TakeRecorder::Take {
     std::optional<TaiTime> origin;
     int tai_offset_s = 0;
     double bytes_a_pulse = 0;  ///< from the rigs' first frames
-    MonotonicTime asked = MonotonicClock::now();
     std::chrono::nanoseconds longest_unwritten{0};
-    bool is_lateness_told = false;
+    bool is_lateness_told = false, is_sync_told = false;
     double disk_mb_s = 0;
     std::vector<std::string> told;  ///< per rig: the reason of the last refusal
     std::string failure;            ///< empty: none
+};
+
+/// Notes that the thread is in a call of the writer, which a slow disk blocks.
+class TakeRecorder::Writing {
+  public:
+    explicit Writing(TakeRecorder& recorder) : recorder_(recorder) {
+        const std::lock_guard lock(recorder_.mutex_);
+        recorder_.writing_since_ = MonotonicClock::now();
+    }
+    ~Writing() {
+        const std::lock_guard lock(recorder_.mutex_);
+        recorder_.round_writing_ += MonotonicClock::now() - *recorder_.writing_since_;
+        recorder_.writing_since_.reset();
+    }
+    Writing(const Writing&) = delete;
+    Writing& operator=(const Writing&) = delete;
+
+  private:
+    TakeRecorder& recorder_;
 };
 
 std::size_t TakeRecorder::Item::bytes() const {
@@ -234,6 +252,7 @@ void TakeRecorder::begin(const std::filesystem::path& path) {
         is_taking_ = true;
         is_ending_ = false;
         begin_ = path;
+        asked_ = MonotonicClock::now();
         queue_ = std::exchange(pre_roll_, {});
         queued_bytes_ = std::exchange(pre_roll_bytes_, 0);
         most_queued_bytes_ = queued_bytes_ + settings_.queue_bytes;
@@ -275,7 +294,35 @@ bool TakeRecorder::is_running() const {
 
 TakeState TakeRecorder::state() const {
     const std::lock_guard lock(mutex_);
-    return state_;
+    TakeState state = state_;
+    state.trouble = trouble(MonotonicClock::now());
+    return state;
+}
+
+/// Whether the present round, or a call of the writer in it, has mostly waited for the disk.
+/// Precondition: mutex_ is held.
+bool TakeRecorder::is_disk_slow(MonotonicTime now) const {
+    return writing_since_ || 2 * round_writing_ > now - round_began_;
+}
+
+/// Precondition: mutex_ is held.
+std::string TakeRecorder::trouble(MonotonicTime now) const {
+    if (state_.phase != TakePhase::recording) return "";
+    std::optional<MonotonicTime> oldest = round_arrival_;
+    if (!oldest && !queue_.empty()) oldest = queue_.front().arrival;
+    // The pre-roll was in memory on purpose until the take was requested.
+    if (oldest) oldest = std::max(*oldest, asked_);
+    const auto seconds_since = [&](MonotonicTime time) {
+        return std::chrono::duration<double>(now - time).count();
+    };
+    if (oldest && now - *oldest > long_unwritten)
+        return fmt::format("{}: data waits {:.0f} s to be written",
+                           is_disk_slow(now) ? "the disk is slow" : "the computer is overloaded",
+                           seconds_since(*oldest));
+    if (syncing_since_ && now - *syncing_since_ > long_sync)
+        return fmt::format("the disk is slow: a power cut would lose the last {:.0f} s",
+                           seconds_since(*syncing_since_));
+    return "";
 }
 
 TakeRecorder::PreRoll TakeRecorder::pre_roll() const {
@@ -308,6 +355,9 @@ void TakeRecorder::run() {
                 take->told.resize(tracks_);
             }
             if (take) items = pop_some();
+            round_began_ = MonotonicClock::now();
+            round_writing_ = std::chrono::nanoseconds(0);
+            if (!items.empty()) round_arrival_ = items.front().arrival;
             is_over = take && items.empty() && is_ending_;
             if (!take && is_stopping_) return;
         }
@@ -315,7 +365,10 @@ void TakeRecorder::run() {
         try {
             work(*take, std::move(items));
             if (!take->writer) open_if_ready(*take);
-            if (take->writer) take->writer->hand_over();
+            if (take->writer) {
+                const Writing writing(*this);
+                take->writer->hand_over();
+            }
             if (is_over) close(*take);
         } catch (const std::exception& error) {
             take->failure = error.what();
@@ -460,11 +513,16 @@ void TakeRecorder::store(Take& take, std::span<const Item> items) {
     for (std::size_t i = 0; i < items.size(); ++i) {
         if (items[i].sound) hear(take, *items[i].sound);
         if (!items[i].frame) {
-            if (!items[i].sound) take.writer->add(items[i].camera);
+            if (!items[i].sound) {
+                const Writing writing(*this);
+                take.writer->add(items[i].camera);
+            }
             continue;
         }
-        if (coming[i].wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+        if (coming[i].wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+            const Writing writing(*this);
             take.writer->hand_over();
+        }
         std::optional<StoredFrame> stored;
         try {
             stored = coming[i].get();
@@ -484,6 +542,7 @@ void TakeRecorder::hear(Take& take, const SoundBlock& sound) {
 }
 
 void TakeRecorder::write_sound(Take& take) {
+    const Writing writing(*this);
     if (!take.sound.samples.empty()) take.writer->add(take.sound);
     take.sound.samples.clear();
 }
@@ -496,20 +555,24 @@ void TakeRecorder::write(Take& take, const ArrivedFrame& frame, StoredFrame stor
         const TakeState::Rig& rig = state_.rigs[frame.rig];
         stored.record.dropped = rig.dropped + rig.refused;
     }
-    if (!take.writer->add(frame.rig, std::move(stored))) {
+    const auto add = [&] {
+        const Writing writing(*this);
+        return take.writer->add(frame.rig, std::move(stored));
+    };
+    if (!add()) {
         refuse(take, frame, "its pulse is not later than that of the frame before it");
         return;
     }
-    // The pre-roll was in memory on purpose until the take was requested.
-    const std::chrono::nanoseconds unwritten =
-        MonotonicClock::now() - std::max(frame.arrival, take.asked);
+    const std::lock_guard lock(mutex_);
+    const MonotonicTime now = MonotonicClock::now();
+    const std::chrono::nanoseconds unwritten = now - std::max(frame.arrival, asked_);
     take.longest_unwritten = std::max(take.longest_unwritten, unwritten);
     if (unwritten > long_unwritten && !std::exchange(take.is_lateness_told, true))
         log_warning(
-            "{}: data is written {:.1f} s late and would be lost if this program were killed: the "
-            "computer is overloaded",
-            take.path.string(), std::chrono::duration<double>(unwritten).count());
-    const std::lock_guard lock(mutex_);
+            "{}: data is written {:.1f} s late and would be lost if this program were killed: {}",
+            take.path.string(), std::chrono::duration<double>(unwritten).count(),
+            is_disk_slow(now) ? "the disk is slow; record to a faster one"
+                              : "the computer is overloaded");
     ++state_.rigs[frame.rig].frames;
 }
 
@@ -532,11 +595,16 @@ void TakeRecorder::close(Take& take) {
     }
 }
 
-void TakeRecorder::note(const Take& take) {
+void TakeRecorder::note(Take& take) {
     const std::lock_guard lock(mutex_);
     state_.disk_mb_s = take.disk_mb_s;
     state_.longest_unwritten_ms = to_ms(take.longest_unwritten);
+    round_arrival_.reset();
     if (!take.writer) return;
+    syncing_since_ = take.writer->syncing_since();
+    if (const std::string now = trouble(MonotonicClock::now());
+        syncing_since_ && !now.empty() && !std::exchange(take.is_sync_told, true))
+        log_warning("{}: {}; record to a faster one", take.path.string(), now);
     if (state_.phase == TakePhase::opening) state_.phase = TakePhase::recording;
     state_.frames = take.writer->frames();
     state_.gaps = take.writer->gaps();

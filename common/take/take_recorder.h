@@ -38,6 +38,7 @@ struct TakeState {
     TakePhase phase = TakePhase::none;
     std::string path;     ///< of the current or last take; empty: none
     std::string failure;  ///< one sentence; empty: none
+    std::string trouble;  ///< one sentence while data reaches the disk late; empty: none
     std::uint64_t frames = 0, gaps = 0, bytes = 0;
     double duration_s = 0;
     double mb_s = 0;       ///< data rate of the take
@@ -128,6 +129,7 @@ class TakeRecorder {
     };
     /// A take in progress; used by the thread only.
     struct Take;
+    class Writing;
 
     void run();
     void push(Item item);
@@ -141,10 +143,12 @@ class TakeRecorder {
     void store(Take& take, std::span<const Item> items);
     void write(Take& take, const ArrivedFrame& frame, StoredFrame stored);
     void hear(Take& take, const SoundBlock& sound);
-    static void write_sound(Take& take);
+    void write_sound(Take& take);
     void refuse(Take& take, const ArrivedFrame& frame, const std::string& why);
     void close(Take& take);
-    void note(const Take& take);
+    void note(Take& take);
+    bool is_disk_slow(MonotonicTime now) const;
+    std::string trouble(MonotonicTime now) const;
 
     const Settings settings_;   ///< `stage_` replaces its rigs, its show and its attachments
     mutable std::mutex mutex_;  ///< guards the members below; never held during a write or codec
@@ -158,6 +162,13 @@ class TakeRecorder {
     std::map<std::size_t, std::size_t> rows_;
     std::size_t tracks_ = 0;
     TakeState state_;
+    /// The thread's present round: its start, the arrival of its oldest data, the writer's call
+    /// that it is in, and the time in such calls.
+    MonotonicTime round_began_{};
+    std::optional<MonotonicTime> round_arrival_, writing_since_;
+    std::chrono::nanoseconds round_writing_{0};
+    std::optional<MonotonicTime> syncing_since_;  ///< start of the sync that runs
+    MonotonicTime asked_{};                       ///< for the take
     std::thread thread_;
 };
 

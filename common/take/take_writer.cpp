@@ -230,6 +230,10 @@ void TakeWriter::flush_if_due() {
     sync_if_due();
 }
 
+std::optional<MonotonicTime> TakeWriter::syncing_since() const {
+    return file_->is_syncing() ? std::optional(synced_at_) : std::nullopt;
+}
+
 void TakeWriter::hand_over() {
     if (unwritten_ms_) flush();
     sync_if_due();

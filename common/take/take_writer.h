@@ -59,6 +59,8 @@ class TakeWriter {
     std::uint64_t frames() const { return frames_; }
     std::uint64_t gaps() const { return gaps_; }
     double sound_s() const { return static_cast<double>(sound_samples_) / sound_rate_hz; }
+    /// When the sync began that runs on another thread; empty: none runs.
+    std::optional<MonotonicTime> syncing_since() const;
     /// From the first to the last frame.
     double duration_s() const;
 

@@ -40,6 +40,7 @@ std::string why_caution(const DeskState& state) {
     for (const DeskOutput& output : state.outputs)
         if (output.is_failed) return fmt::format("{} has failed", output.name);
     if (state.take && !state.take->failure.empty()) return "the take has failed";
+    if (state.take && !state.take->trouble.empty()) return state.take->trouble;
     if (state.age_s && *state.age_s >= late_s)
         return fmt::format("the picture is {:.1f} s old", *state.age_s);
     if (state.repeat_rate_hz > max_repeated_share * state.tick_rate_hz)
@@ -47,7 +48,7 @@ std::string why_caution(const DeskState& state) {
                            std::round(state.tick_rate_hz));
     for (const DeskRig& rig : state.rigs)
         if (!rig.worries.empty()) return fmt::format("{}: {}", rig.name, rig.worries.front());
-    return "";
+    return state.computer_worry;
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ struct DeskTake {
     std::string path;
     double duration_s = 0, mb_s = 0;
     std::uint64_t left_out = 0;  ///< frames that were received and are not in the take
-    std::string failure;
+    std::string failure, trouble;
 };
 
 /// An output of the programme.
@@ -273,6 +273,7 @@ struct DeskState {
     std::vector<DeskStep> steps;
     std::vector<DeskFigure> figures;
     std::vector<DeskRig> rigs;
+    std::string computer_worry;   ///< what the host's computer lacks; empty: nothing
     std::string synchronisation;  ///< result of the last sync measurement; empty: of a take
     OrbitView view;               ///< of the programme's camera
     bool is_sync_doubtful = false;

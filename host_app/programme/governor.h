@@ -17,8 +17,8 @@ namespace vantage {
 /// oscillation. Not thread-safe.
 class LevelChooser {
   public:
-    /// Work may take `share` of the time. `best_level_ratio` is the time of the best level over that
-    /// of the next one, as long as neither was measured here.
+    /// Work may take `share` of the time. `best_level_ratio` is the time of the best level over
+    /// that of the next one, as long as neither was measured here.
     LevelChooser(std::size_t levels, double share, double best_level_ratio = untried_ratio);
 
     std::size_t level() const { return level_; }

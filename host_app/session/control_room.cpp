@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/memory_pressure.h"
 #include "host_app/desk/feed/desk_values.h"
 #include "host_app/session/report/live_report.h"
 
@@ -47,7 +48,11 @@ bool AirWatch::follow(const LiveShow& show, const std::optional<TakeState>& take
     if (seen.report.signal != SignalState::no_signal) desk.coverage = seen.report.corridor.now;
     desk.tick_rate_hz = ticks_.per_second();
     desk.repeat_rate_hz = repeats_.per_second();
-    if (take) desk.take.emplace().failure = take->failure;
+    if (take) {
+        desk.take.emplace().failure = take->failure;
+        desk.take->trouble = take->trouble;
+    }
+    desk.computer_worry = memory_worry(memory_pressure());
     for (const RigAccount& account : seen.report.rigs) {
         DeskRig& rig = desk.rigs.emplace_back();
         rig.name = account.status.rig;

@@ -203,6 +203,7 @@ void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, BackgroundSa
     show.start();
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
+    ComputerWatch computer;
     OutputSwitch outputs(show.outputs());
     ScreenWindows screens(false);
     const std::chrono::milliseconds look(show.outputs().screens().empty() ? 20 : 4);
@@ -211,6 +212,7 @@ void ShowSession::run_headless(StopSignal& stop, ControlRoom& room, BackgroundSa
         screens.follow(show.outputs().screens());
         progress.tell(show);
         corridor.tell(show);
+        computer.tell();
     }
     finish(room, backgrounds, corridor, [&] {
         const auto last = show.state().picture;
@@ -230,6 +232,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, BackgroundS
     DeskFeed feed;
     ProgressLog progress(plan);
     CorridorWatch corridor(plan);
+    ComputerWatch computer;
     OutputSwitch outputs(show.outputs());
     ScreenWindows screens(true);
     // Input is read 60 times a second and pictures are shown as they come. The rest of the desk is
@@ -281,6 +284,7 @@ void ShowSession::run_in_window(StopSignal& stop, ControlRoom& room, BackgroundS
         if (desk) desk->follow(window.arrangement(), now);
         progress.tell(show);
         corridor.tell(show);
+        computer.tell();
     }
     if (desk) desk->finish();
     finish(room, backgrounds, corridor, [&] { return window.screenshot(); });

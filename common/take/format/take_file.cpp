@@ -85,9 +85,13 @@ void TakeFile::sync() {
     if (failure_ == 0) failure_ = sync_data(fd_.get());
 }
 
+bool TakeFile::is_syncing() const {
+    return syncing_.valid() &&
+           syncing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
 bool TakeFile::begin_sync() {
-    if (syncing_.valid() && syncing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
-        return false;
+    if (is_syncing()) return false;
     take_up_sync();
     syncing_ = std::async(std::launch::async, [fd = fd_.get()] { return sync_data(fd); });
     return true;

@@ -31,6 +31,8 @@ class TakeFile {
     /// Starts a sync on another thread, so that writing does not wait for a slow disk. False: the
     /// last one still runs.
     bool begin_sync();
+    /// Whether one still runs.
+    bool is_syncing() const;
 
   private:
 #if LIBAVFORMAT_VERSION_MAJOR >= 61  // FFmpeg 7, as in Debian 13

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "common/base/memory_pressure.h"
 #include "common/gl/context/limits.h"
 #include "host_app/desk/desk_arrangement.h"
 #include "host_app/desk/feed/desk_values.h"
@@ -68,6 +69,7 @@ std::optional<DeskTake> desk_take(const TakeState& take) {
     desk.mb_s = take.mb_s;
     for (const TakeState::Rig& rig : take.rigs) desk.left_out += rig.dropped + rig.refused;
     desk.failure = take.failure;
+    desk.trouble = take.trouble;
     return desk;
 }
 
@@ -173,6 +175,7 @@ void DeskFeed::refresh(LiveShow& show, const ProgrammeState& programme, const Fr
     state_.rigs.clear();
     for (const RigAccount& rig : report.rigs)
         if (!rig.status.is_removed) state_.rigs.push_back(rig_of(rig, set, now));
+    state_.computer_worry = memory_worry(memory_pressure());
     if (!show.settings().take) {
         const auto date = std::chrono::system_clock::now();
         state_.synchronisation = sync_words(show.settings().sync_proof, date);

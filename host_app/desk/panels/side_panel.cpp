@@ -152,6 +152,7 @@ void draw_outputs(Column& column, const DeskState& state, DeskSpots* spots) {
                       take.is_running ? fmt::format("{:.1f} MB/s", take.mb_s) : "ended");
     if (take.left_out > 0)
         column.row(palette::warn, fmt::format("{} frames not in the take", take.left_out));
+    if (!take.trouble.empty()) column.wrapped(palette::warn, take.trouble);
     if (!take.failure.empty()) column.wrapped(palette::bad, take.failure);
 }
 
@@ -173,6 +174,7 @@ void draw_worries(Column& column, const DeskState& state) {
     for (const DeskRig& rig : state.rigs)
         for (const std::string& worry : rig.worries)
             column.wrapped(palette::warn, fmt::format("{}: {}", rig.name, worry));
+    if (!state.computer_worry.empty()) column.wrapped(palette::warn, state.computer_worry);
     if (!state.synchronisation.empty())
         column.wrapped(state.is_sync_doubtful ? palette::warn : palette::dim,
                        "synchronisation: " + state.synchronisation);

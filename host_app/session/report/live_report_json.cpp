@@ -60,17 +60,13 @@ const char* key_of(TakePhase phase) {
 }
 
 nlohmann::ordered_json take_json(const TakeState& take) {
-    nlohmann::ordered_json json{{"path", take.path},
-                                {"takes", take.takes},
-                                {"state", key_of(take.phase)},
-                                {"failure", take.failure},
-                                {"frames", take.frames},
-                                {"gaps", take.gaps},
-                                {"bytes", take.bytes},
-                                {"mb_s", take.mb_s},
-                                {"duration_s", take.duration_s},
-                                {"disk_mb_s", take.disk_mb_s},
-                                {"longest_unwritten_ms", take.longest_unwritten_ms}};
+    nlohmann::ordered_json json{
+        {"path", take.path},           {"takes", take.takes},
+        {"state", key_of(take.phase)}, {"failure", take.failure},
+        {"trouble", take.trouble},     {"frames", take.frames},
+        {"gaps", take.gaps},           {"bytes", take.bytes},
+        {"mb_s", take.mb_s},           {"duration_s", take.duration_s},
+        {"disk_mb_s", take.disk_mb_s}, {"longest_unwritten_ms", take.longest_unwritten_ms}};
     if (take.has_sound) {
         json["sound_s"] = take.sound_s;
         json["sound_dropped_samples"] = take.sound_dropped;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "common/base/log.h"
+#include "common/base/memory_pressure.h"
 
 namespace vantage {
 namespace {
@@ -60,6 +61,19 @@ std::string ProgressLog::line(const LiveShow& show) {
     repeated_ = stats.repeated;
     instants_ = instants.prepared;
     return line;
+}
+
+void ComputerWatch::tell() {
+    const MonotonicTime now = MonotonicClock::now();
+    if (now - last_ < progress_period) return;
+    last_ = now;
+    const std::string worry = memory_worry(memory_pressure());
+    if (is_short_ == !worry.empty()) return;
+    is_short_ = !worry.empty();
+    if (is_short_)
+        log_warning("{}", worry);
+    else
+        log_info("this computer has memory again");
 }
 
 void CorridorWatch::tell(const LiveShow& show) {

@@ -28,6 +28,17 @@ class ProgressLog {
     std::uint64_t pictures_ = 0, reprojected_ = 0, repeated_ = 0, instants_ = 0;
 };
 
+/// Logs that this computer is short of memory when it begins to be, and when that ends.
+class ComputerWatch {
+  public:
+    /// Call it often.
+    void tell();
+
+  private:
+    MonotonicTime last_ = MonotonicClock::now();
+    bool is_short_ = false;
+};
+
 /// Logs once each that the camera reaches the edge of its corridor, that it leaves the corridor,
 /// and which parts of the planned move lie outside.
 class CorridorWatch {

@@ -46,6 +46,16 @@ class ControlGroup {
     void set(const std::string& file, std::int64_t value) const {
         write(folder_ / file, std::to_string(value));
     }
+    std::int64_t value_of(const std::string& file) const {
+        std::int64_t value = 0;
+        if (!(std::ifstream(folder_ / file) >> value)) fail("cannot read {}", file);
+        return value;
+    }
+    /// Writes to a block device, of all programs; 0: as many as it can. Controller blkio.
+    static void limit_writes(const std::string& device_numbers, std::int64_t bytes_a_second) {
+        write(root("blkio") / "blkio.throttle.write_bps_device",
+              fmt::format("{} {}", device_numbers, bytes_a_second));
+    }
     /// Share of one processor that the group gets in each tenth of a second, 0.01 at least; 0: as
     /// much as it wants. Controller cpu.
     void limit_processor(double share) const {

@@ -1,6 +1,7 @@
 // What a show does while programs hang or die, and clocks are set.
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -156,6 +157,48 @@ TEST_F(ShowFaults, ARigThatTheKernelKillsForMemoryIsGoneAloneAndComesBack) {
     EXPECT_LE(sets_until_far_is_back([] {}), sets_to_recover) << host_->err();
 
     end_and_expect_trouble_of_far_alone(1);
+}
+
+/// A process that reads a large file again and again, so that its group's memory is always full of
+/// it and the kernel has to make room for every page that anyone else wants.
+pid_t start_reader(const std::string& path) {
+    const pid_t reader = ::fork();
+    if (reader != 0) return reader;
+    std::string piece(1 << 20, ' ');
+    while (true) {
+        std::ifstream file(path);
+        while (file.read(piece.data(), static_cast<std::streamsize>(piece.size()))) {
+        }
+    }
+}
+
+TEST_F(ShowFaults, AHostThatIsShortOfMemoryHoldsItsTicks) {
+    if (const std::string reason = ControlGroup::reason_against("memory"); !reason.empty())
+        GTEST_SKIP() << "SKIPPED: " << reason;
+    const ControlGroup group("memory");
+    group.run_inside([&] { start_host({"--seconds", "600", "--take", file("take.mkv")}); });
+    host_->wait_for("recording ");
+    wait_for_progress();
+    wait_for_progress();
+    // Room for what the host may still take, which the reader fills.
+    constexpr std::int64_t room_bytes = 100'000'000;
+    std::ofstream(file("large"));
+    std::filesystem::resize_file(file("large"), 10 * room_bytes);
+    group.set("memory.limit_in_bytes", group.value_of("memory.usage_in_bytes") + room_bytes);
+    pid_t reader = -1;
+    group.run_inside([&] { reader = start_reader(file("large")); });
+    for (int i = 0; i < 3; ++i) wait_for_progress();
+    EXPECT_GT(group.value_of("memory.failcnt"), 1000) << "how often the group was full";
+    ::kill(reader, SIGKILL);
+    ::waitpid(reader, nullptr, 0);
+
+    host_->send_signal(SIGINT);
+    const ProgramResult result = host_->wait();
+    EXPECT_EQ(result.status, 128 + SIGINT) << result.err;
+    const nlohmann::json summary = nlohmann::json::parse(result.out);
+    expect_ticks_held(summary);
+    expect_no_frame_lost(summary);
+    EXPECT_EQ(summary["take"]["failure"], "");
 }
 
 TEST_F(ShowFaults, AHostThatHangsOrDiesCostsRigsNothing) {

@@ -85,7 +85,13 @@ TEST(AirVerdictTest, ReportsOutputsTakesAndHeat) {
     DeskState state = good_state();
     state.rigs[0].worries = {"83 C, it throttles from 80 C on"};
     EXPECT_EQ(air_verdict(state).why, "north: 83 C, it throttles from 80 C on");
-    state.take.emplace().failure = "the disk is full";
+    state.computer_worry = "this computer is short of memory";
+    EXPECT_EQ(air_verdict(state).why, "north: 83 C, it throttles from 80 C on");
+    state.rigs[0].worries.clear();
+    EXPECT_EQ(air_verdict(state).why, "this computer is short of memory");
+    state.take.emplace().trouble = "the disk is slow: data waits 3 s to be written";
+    EXPECT_EQ(air_verdict(state).why, "the disk is slow: data waits 3 s to be written");
+    state.take->failure = "the disk is full";
     EXPECT_EQ(air_verdict(state).why, "the take has failed");
     DeskOutput output;
     output.name = "srt://house:9000";
