@@ -20,6 +20,7 @@ words=(
   'edge[_ ]trust\w*|EdgeTrust\w*|sureness'       # edge confidence
   '[a-z_]*unlike(?:ness|_\w+)|\w+_unlike'        # cost
   'learnt[_ ]sets?|LearntSet|set[_ ]learner|SetLearner|matched[_ ]sets?|set[_ ]memory|SetMemory' # background
+  '(?:like|knows|known|its|the)[_-]set|(?:before|behind|over|like) (?:the|a|its|their) sets?' # background
   '[Hh]elms?|[Pp]ilots?|Pilot\w+|\w+Pilot'       # flight controller, camera source
   'right[_ ]of[_ ]way|RightOfWay|driver[_ ]turn|DriverTurn' # render priority, driver lock
   'time[_ ]share|TimeShare|[Aa]llowance'         # time budget

@@ -240,8 +240,8 @@ const Texture& StagedPreparer::refined_background(RigHistory& rig) {
             Program& show = show_matched_.use();
             show.input("learnt", one->steady_depth());
             show.input("picture", one->colour());
-            show.input("learnt_then", one->match()->learnt_m);
-            show.input("picture_then", one->match()->colour);
+            show.input("depth_then", one->match()->learnt_m);
+            show.input("colour_then", one->match()->colour);
             show.input("matched", one->match()->depth_m);
             show.set("spread", depth_spread(one->camera()));
             show_matched_.draw(one->matched_depth().target());

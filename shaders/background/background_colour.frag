@@ -17,7 +17,7 @@ layout(location = 0) out vec4 shown;  // alpha: 1 where the background is visibl
 layout(location = 1) out vec4 mean;
 
 const float pixel_share = 0.4;  // of a pixel's own change, whose noise is larger than a window's
-const float still = 1.0 / 255.0;  // change of the mean up to which a pixel keeps its colour: noise would flicker
+const float max_still_change = 1.0 / 255.0;  // change of the mean up to which a pixel keeps its colour: noise would flicker
 const float hidden_from = 0.02; // matte around a pixel from which on it counts as hidden
 
 void main() {
@@ -45,5 +45,5 @@ void main() {
                                     : max(past.a - 1.0, min_still);
     mean = vec4(mix(past.rgb, now.rgb, max(1.0 / (max(instants, 0.0) + 1.0), smoothstep(noise_change, motion_change, change))), instants);
     vec3 kept = texelFetch(shown_before, at, 0).rgb;
-    shown = vec4(largest(mean.rgb - kept) <= still ? kept : mean.rgb, 1.0);
+    shown = vec4(largest(mean.rgb - kept) <= max_still_change ? kept : mean.rgb, 1.0);
 }

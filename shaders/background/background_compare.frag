@@ -19,9 +19,9 @@ uniform sampler2D background_colour; // mean of the instants that showed the bac
 
 layout(location = 0) out vec4 seen;  // red: a kind of background_kinds.glsl; green: change of colour in a window; blue: of the pixel
 
-const float quiet = 0.012;           // change of the pixel's colour below which it shows the background
+const float max_quiet_change = 0.012;           // change of the pixel's colour below which it shows the background
 const vec2 shade = vec2(0.45, 1.3);  // least and greatest factor that shadow and light apply to a colour
-const float tint = 0.025;            // change of colour that remains beside that factor, at most
+const float max_tint = 0.025;            // change of colour that remains beside that factor, at most
 const float uncovered_after = 3.0;   // instants, at most, after which a farther surface becomes the background
 
 vec3 now, known;  // colour and background colour of the pixel, later means of a window
@@ -40,7 +40,7 @@ void average_window(vec2 uv) {
 
 bool is_shade() {
     float share = dot(now, known) / max(dot(known, known), 1e-4);
-    return share > shade.x && share < shade.y && largest(now - share * known) < tint;
+    return share > shade.x && share < shade.y && largest(now - share * known) < max_tint;
 }
 
 void main() {
@@ -60,7 +60,7 @@ void main() {
     float own = largest(now - known);
     seen = vec4(the_background, 0.5 * own, own, 0.0);
 #if FIRST
-    leave_to_second(own >= quiet);
+    leave_to_second(own >= max_quiet_change);
 #else
     average_window(uv);
     float z = texelFetch(depth_map, at, 0).r, change = largest(now - known);

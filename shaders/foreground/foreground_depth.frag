@@ -48,8 +48,8 @@ void main() {
     bool is_alone = nearest == none;
     if (is_alone) nearest = 0.0;
     if (textureLod(matte, gl_FragCoord.xy / vec2(textureSize(depth_map, 0)), 0.0).r == 0.0) {
-        float set = texelFetch(background_depth, at, 0).r;
-        performer_m = set <= 0.0 || set > nearest ? -nearest : 0.0;
+        float behind = texelFetch(background_depth, at, 0).r;
+        performer_m = behind <= 0.0 || behind > nearest ? -nearest : 0.0;
         return;
     }
 #if FAR

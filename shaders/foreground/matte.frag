@@ -10,10 +10,10 @@ layout(location = 0) out float performer;  // 0 or 1
 const int reach = 2;              // steps to either side
 const int step_px = 2;            // from one step to the next, px of the image
 const float like_colour = 0.05;   // difference (0..1) at which a pixel's word counts 1/e
-const float like_set_here = 0.04; // difference below which those around decide
-const float least_around = 0.15;  // share of pixels before the set around one that is taken for one
-const float most_around = 0.8;    // share from which on a pixel that looks like the set is taken for one
-const float new_around = 0.4;     // and one that looks like a set which has just changed, among what looks like it
+const float like_background_here = 0.04; // difference below which those around decide
+const float least_around = 0.15;  // share of foreground around a pixel that is taken for foreground
+const float most_around = 0.8;    // share from which on a pixel that looks like the background is taken for it
+const float new_around = 0.4;     // share for one that looks like a background which has just changed
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy), size = textureSize(picture, 0);
@@ -27,10 +27,10 @@ void main() {
         for (int x = -reach; x <= reach; ++x) {
             ivec2 there = clamp(at + step_px * ivec2(x, y), ivec2(0), size - 1);
             float kind = textureLod(seen, (vec2(there) + 0.5) * texel, 0.0).r;
-            float is_before = is_kind(kind, before_background) ? 1.0 : 0.0, is_set = is_kind(kind, undecided) || is_kind(kind, uncovered) ? 0.0 : 1.0 - is_before;
-            float is_known = is_kind(kind, new_background) ? 0.0 : is_set;
+            float is_before = is_kind(kind, before_background) ? 1.0 : 0.0, is_background = is_kind(kind, undecided) || is_kind(kind, uncovered) ? 0.0 : 1.0 - is_before;
+            float is_known = is_kind(kind, new_background) ? 0.0 : is_background;
             before += is_before;
-            count += is_before + is_set;
+            count += is_before + is_background;
             vec3 off = abs(texelFetch(picture, there, 0).rgb - now);
             float w = exp(-(off.r + off.g + off.b) / (3.0 * like_colour)) + 1e-3;
             like_before += w * is_before;
@@ -39,7 +39,7 @@ void main() {
     if (is_kind(own, uncovered)) performer = 1.0;
     if (before == 0.0 || performer > 0.0) return;
     float around = before / max(count, 1.0);
-    bool is_foreground = is_kind(own, before_background) ? around > least_around && (seen_here.b > like_set_here || like_before > like_background)
+    bool is_foreground = is_kind(own, before_background) ? around > least_around && (seen_here.b > like_background_here || like_before > like_background)
                         : is_kind(own, undecided)   ? like_before > like_background
                         : is_kind(own, new_background)  ? around > new_around && like_before > like_background
                                                  : around > most_around;

@@ -10,9 +10,9 @@ layout(location = 0) out float share;  // the foreground's share of the pixel
 const vec2 smooth_edge = vec2(0.2, 0.8);  // filtered shares below and above which a pixel is pure
 const vec2 certain = vec2(0.1, 0.9);      // the same for shares by colour
 const float inward_px = 2.0;          // from an edge to a pixel of pure foreground
-const float told_from = 0.08;         // distance of two colours (0..1) from which on they decide
-const float third = 2.0;              // penalty for a colour's distance from the line between the two
-const float whole = 0.99;
+const float min_contrast = 0.08;      // distance of two colours (0..1) from which on they decide
+const float off_line_penalty = 2.0;   // for a colour's distance from the line between the two
+const float pure_share = 0.99;
 
 vec2 texel, uv;
 
@@ -35,14 +35,14 @@ void main() {
     vec2 inward = vec2(corner.y + corner.w - corner.x - corner.z, corner.z + corner.w - corner.x - corner.y);
     if (dot(inward, inward) == 0.0) return;
     vec2 inside = inward_px * inward * inversesqrt(dot(inward, inward));
-    if (around(inside) < whole) inside *= 0.6;
-    if (around(inside) < whole) return;
+    if (around(inside) < pure_share) inside *= 0.6;
+    if (around(inside) < pure_share) return;
     vec3 behind = textureLod(background_colour, uv, 0.0).rgb;
     vec3 span = textureLod(picture, uv + texel * inside, 0.0).rgb - behind;
     vec3 own = textureLod(picture, uv, 0.0).rgb - behind;
     float apart = dot(span, span);
     float seen = clamp(dot(own, span) / max(apart, 1e-6), 0.0, 1.0);
     // A colour off the line between the two belongs to a third surface.
-    float told = smoothstep(0.5 * told_from, told_from, sqrt(apart) - third * length(own - seen * span));
+    float told = smoothstep(0.5 * min_contrast, min_contrast, sqrt(apart) - off_line_penalty * length(own - seen * span));
     share = mix(share, clamp((seen - certain.x) / (certain.y - certain.x), 0.0, 1.0), told);
 }

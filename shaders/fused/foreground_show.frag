@@ -31,11 +31,11 @@ uniform float softness;       // relative depth within which two surfaces are on
 layout(location = 0) out vec4 shown;
 layout(location = 1) out float shown_z;
 
-const float body = 0.1;        // relative depth: the silhouettes of surfaces farther away from a point are ignored
-const float about_px = 1.5;    // error of depth: silhouettes are widened by it for other rigs
-const float least_say = 1e-3;  // weight of a rig that does not see the point, used where no rig does
-const float whole = 0.9;       // share from which on surfaces behind are not examined
-const float seen_share = 0.5;  // share of a rig's pixel from which on the rig sees its foreground there
+const float same_body_share = 0.1;  // relative depth: the silhouettes of surfaces farther away from a point are ignored
+const float silhouette_error_px = 1.5;  // by which silhouettes are widened for other rigs, since depth errs
+const float min_visibility = 1e-3;  // of a rig that does not see the point: used where no rig does
+const float opaque_share = 0.9;     // from which on surfaces behind are not examined
+const float seen_share = 0.5;       // of a rig's pixel, from which on the rig sees its foreground there
 
 struct Seen {
     vec3 sum;             // of colours times alpha
@@ -56,10 +56,10 @@ void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout S
     if (inside < 0.0) return;
     vec4 off = abs(abs(textureGather(map, uv)) / q.z - 1.0);
     float nearest = min(min(off.x, off.y), min(off.z, off.w));
-    if (nearest > body) return;
+    if (nearest > same_body_share) return;
     vec4 c = textureLod(pictures, uv, 0.0);
     if (c.a < 1.0 && i < 2) {
-        vec2 step = about_px / colour_size[i];
+        vec2 step = silhouette_error_px / colour_size[i];
         float around = c.a;
         for (int k = 0; k < 4; ++k)
             around = max(around, textureLod(pictures, uv + step * (2.0 * vec2(k & 1, k >> 1) - 1.0), 0.0).a);
@@ -75,7 +75,7 @@ void look(int i, sampler2D pictures, sampler2D map, vec2 pixel, float z, inout S
 #if !PLAIN
     if (c.a > 0.99) c.rgb = sharp(pictures, uv, 0.0);
 #endif
-    float word = say * (sees + 0.001 * presence[i]) / (away + 1e-5), w = c.a * word * (sure + least_say);
+    float word = say * (sees + 0.001 * presence[i]) / (away + 1e-5), w = c.a * word * (sure + min_visibility);
     seen.covers += word * c.a;
     seen.words += word;
     seen.sum += w * c.rgb;
@@ -155,7 +155,7 @@ void main() {
             float its = min(seen.covers / seen.words, seen.most);
             if (its > share) best = seen, share = its, best_z = there;
         }
-        if (share > whole) break;
+        if (share > opaque_share) break;
         nearest = next;
     }
     if (share == 0.0) return;

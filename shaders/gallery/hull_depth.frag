@@ -3,8 +3,8 @@
 // them, the hull begins.
 #include "hull_rigs.glsl"
 
-uniform sampler2D background_behind;  // depth of the set in this view, metres, 0 = none
-uniform float has_background;         // 0: no set bounds the lines
+uniform sampler2D background_behind;  // its depth in this view, metres, 0 = none
+uniform float has_background;         // 0: no background bounds the lines
 uniform vec2 range_m;          // from and to which depth they are followed
 
 layout(location = 0) out float hull_m;  // 0 = none

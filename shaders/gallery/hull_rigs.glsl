@@ -1,10 +1,11 @@
-// The silhouettes of rigs, for the visual hull of what stands before their sets.
+// The silhouettes of rigs, for the visual hull of what stands before their backgrounds.
+#include "tolerances.glsl"
 #ifndef RIGS
 #define RIGS 4
 #endif
 
 uniform sampler2D matte[RIGS];           // the performers' share of a rig's pixels
-uniform sampler2D background_depth[RIGS];       // of its set, metres, 0 = unknown
+uniform sampler2D background_depth[RIGS];       // metres, 0 = unknown
 uniform mat4 pixel_from_target[RIGS];    // the rigs' (u * z, v * z, z, 1) from the virtual camera's
 uniform vec2 picture_size[RIGS];         // px
 
@@ -20,18 +21,17 @@ uniform vec2 picture_size[RIGS];         // px
 #endif
 
 const int least_rigs = min(RIGS, 3);  // that have to see a point: in what two see silhouettes meet by chance
-const float hidden = 0.95;  // a set nearer than this share of a point's depth hides it
 
 // 1: the point is in the rig's silhouette; 0: it is not; -1: the rig cannot tell.
-int in_silhouette(int i, sampler2D its_matte, sampler2D its_set, vec4 target_point) {
+int in_silhouette(int i, sampler2D its_matte, sampler2D its_background, vec4 target_point) {
     vec4 q = pixel_from_target[i] * target_point;
     if (q.z <= 0.0) return -1;
     vec2 uv = (q.xy / q.z + 0.5) / picture_size[i];
     vec2 inside = min(uv, 1.0 - uv);
     if (min(inside.x, inside.y) < 0.0) return -1;
     if (textureLod(its_matte, uv, 0.0).r >= 0.5) return 1;
-    float behind = textureLod(its_set, uv, 0.0).r;
-    return behind > 0.0 && behind < hidden * q.z ? -1 : 0;
+    float behind = textureLod(its_background, uv, 0.0).r;
+    return behind > 0.0 && behind < hiding_share * q.z ? -1 : 0;
 }
 
 // Whether a point of the virtual camera's (u * z, v * z, z, 1) lies in the hull: in all silhouettes that can tell.

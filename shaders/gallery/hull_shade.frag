@@ -1,4 +1,4 @@
-// Lays the visual hull over the set behind it. A point takes its colour from the two rigs whose lines of sight are
+// Lays the visual hull over the background behind it. A point takes its colour from the two rigs whose lines of sight are
 // nearest to the virtual camera's, of those that see the point: from whose own place the hull begins there.
 #include "hull_rigs.glsl"
 
@@ -7,7 +7,7 @@ uniform sampler2D rig_hull[RIGS];   // of the rigs' own, metres, of another size
 uniform sampler2D colour[RIGS];
 uniform vec3 centre[RIGS];          // of the rig, in the virtual camera's coordinates
 uniform mat3 ray_from_pixel;        // of the virtual camera
-uniform sampler2D background_colour;       // of the set in this view
+uniform sampler2D background_colour;       // in this view
 uniform sampler2D background_behind;       // its depth, metres
 
 layout(location = 0) out vec4 shaded;

@@ -1,4 +1,4 @@
-// A view into a single camera's film (Kang and Shin, 2002): its set, painted on a floor and a back plane, and its
+// A view into a single camera's film (Kang and Shin, 2002): its background, painted on a floor and a back plane, and its
 // performers, cut out and standing on the floor as upright billboards.
 const int most_cut_outs = 8;
 

@@ -18,8 +18,8 @@ const float min_alpha = 1.0 / 255.0;  // above 0, so that the colour is used whe
 layout(location = 0) out vec4 colour;
 
 vec4 colour_now(ivec2 at) {
-    vec4 set = texelFetch(background_colour, at, 0);
-    if (set.a == 1.0) return vec4(sharpened(background_colour, at), 1.0);
+    vec4 known = texelFetch(background_colour, at, 0);
+    if (known.a == 1.0) return vec4(sharpened(background_colour, at), 1.0);
     vec2 uv = gl_FragCoord.xy / vec2(textureSize(picture, 0));
     // A pixel beside the foreground may show neither the foreground nor the remembered background.
     float share = texelFetch(matte, at, 0).r;
@@ -27,7 +27,7 @@ vec4 colour_now(ivec2 at) {
     float performer_m = abs(textureLod(performers, uv, 0.0).r);
     bool stands_before = performer_m > 0.0 && performer_m < before * abs(textureLod(background_depth, uv, 0.0).r);
     bool is_now = is_neither || !stands_before;
-    return is_now ? vec4(sharpened(picture, at), 1.0) : vec4(set.rgb, share < 0.5 ? set.a : remembered);
+    return is_now ? vec4(sharpened(picture, at), 1.0) : vec4(known.rgb, share < 0.5 ? known.a : remembered);
 }
 
 void main() {

@@ -29,6 +29,8 @@ TOLERANCE(consistent_sigmas, 2.0)       // for carving and confirming, per rig: 
 TOLERANCE(same_place_share, 0.05)
 // The same for the plane sweep, which corrects larger errors: its sixteen steps reach about so far.
 TOLERANCE(sweep_place_share, 0.08)
+// A background nearer than this share of a point's depth hides the point from its rig.
+TOLERANCE(hiding_share, 0.95)
 
 // Colour difference at which the weight of a neighbouring pixel falls to 1/e, when pixels of one surface are averaged:
 TOLERANCE(window_colour_falloff, 0.1)      // costs, which tolerate a few foreign pixels

@@ -50,7 +50,7 @@ def write_shader(folder: pathlib.Path, shader: str, definition: str) -> None:
 
 def figures(scene: str, shaders: pathlib.Path, options: list[str]) -> list[float]:
     """Returns live_truth's figures of the product's synthesiser for one scene, from PSNR on."""
-    command = [str(TRUTH), "stepped", "--without-times", "--sets", scene, *options]
+    command = [str(TRUTH), "stepped", "--without-times", "--scenes", scene, *options]
     output = subprocess.run(command, env={**os.environ, "VANTAGE_SHADERS": str(shaders)}, check=True,
                             stdout=subprocess.PIPE, text=True).stdout
     rows = [line.split("|") for line in output.splitlines() if line.startswith("| fused")]

@@ -123,7 +123,7 @@ Quality judge(const ShaderLibrary& library, const std::string& matcher, const St
     return q;
 }
 
-/// Errors of the presets against OpenCV's better, over a set of scenes.
+/// Errors of the presets against OpenCV's better, over several scenes.
 class Verdict {
   public:
     void add(const Shares& q) {

@@ -81,8 +81,8 @@ void write_error(const std::string& folder, const std::string& name, const Colou
     write_colour_image(std::filesystem::path(folder) / (name + ".png"), ColourImage(all));
 }
 
-std::string rows(const ShaderLibrary& library, const BackgroundTruth& wanted, std::uint64_t set) {
-    VirtualStage stage(library, set);
+std::string rows(const ShaderLibrary& library, const BackgroundTruth& wanted, std::uint64_t scene) {
+    VirtualStage stage(library, scene);
     std::vector<std::unique_ptr<MatchingRig>> rigs;
     std::vector<TruthRegions> regions;
     for (const double place : {-1.5, -0.5, 0.5, 1.5}) {
@@ -126,17 +126,18 @@ std::string rows(const ShaderLibrary& library, const BackgroundTruth& wanted, st
         learnt_errors.add(learnt.rigs[i].depth_m, truth_m, where, is_known, parallax_px);
         refined_errors.add(depth_m, truth_m, where, is_known, parallax_px);
         if (!wanted.pictures.empty())
-            write_error(wanted.pictures, fmt::format("set{}_rig{}", set, i), learnt.rigs[i].colour,
-                        learnt.rigs[i].depth_m, depth_m, truth_m, parallax_px);
+            write_error(wanted.pictures, fmt::format("scene{}_rig{}", scene, i),
+                        learnt.rigs[i].colour, learnt.rigs[i].depth_m, depth_m, truth_m,
+                        parallax_px);
     }
-    return fmt::format("| {} | learnt |{}\n| {} | refined |{}\n", set, learnt_errors.row(), set,
+    return fmt::format("| {} | learnt |{}\n| {} | refined |{}\n", scene, learnt_errors.row(), scene,
                        refined_errors.row());
 }
 
 }  // namespace
 
-std::string set_table(const ShaderLibrary& library, const BackgroundTruth& wanted) {
-    std::string head = "| set | depth | known |", rule = "| --- | --- | --- |";
+std::string background_table(const ShaderLibrary& library, const BackgroundTruth& wanted) {
+    std::string head = "| scene | depth | known |", rule = "| --- | --- | --- |";
     for (const TruthRegion region : background_regions) {
         head += fmt::format(" {}: median px | > 1 px | > 3 px | > 10 px |", words_of(region));
         rule += " --- | --- | --- | --- |";
@@ -144,10 +145,10 @@ std::string set_table(const ShaderLibrary& library, const BackgroundTruth& wante
     std::string text = fmt::format(
         "Four rigs of {}x{}, {:g} degrees apart, sensor noise of {:g} grey level, after {:g} s at "
         "{:g} instants a second. Errors are of inverse depth, as parallax in the next rig's "
-        "picture, where the set is known; shares in per cent.\n\n{}\n{}\n",
+        "picture, where the background is known; shares in per cent.\n\n{}\n{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
         wanted.seconds, wanted.rate_hz, head, rule);
-    for (const std::uint64_t set : wanted.sets) text += rows(library, wanted, set);
+    for (const std::uint64_t scene : wanted.scenes) text += rows(library, wanted, scene);
     return text;
 }
 

@@ -26,10 +26,11 @@ namespace {
 using std::chrono::nanoseconds;
 
 struct Wanted {
-    std::vector<std::uint64_t> sets{0, 1, 2};
+    std::vector<std::uint64_t> scenes{0, 1, 2};
     cv::Size size{320, 240};
     double rate_hz = 25, apart_deg = 20, share = 0.5, start_s = 2, apart_s = 0.7;
-    /// Of a live stage; so long before the first moment the set is learnt, an instant so often.
+    /// Of a live stage; so long before the first moment the background is learnt, an instant so
+    /// often.
     double learning_s = 5, learning_apart_s = 0.2;
     int moments = 6;
     bool with_exact_depth = false, with_camera = true;
@@ -102,14 +103,14 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
     std::cout << fmt::format(
         "Rigs of {}x{}, {:g} degrees apart, {:g} pulses a second, {} depth, at {:g} of the time "
         "between two; PSNR in dB of what moves and of what stands still.\n\n"
-        "| set | | rigs: moving | still | camera between: moving | still |\n"
+        "| scene | | rigs: moving | still | camera between: moving | still |\n"
         "| --- | --- | --- | --- | --- | --- |\n",
         wanted.size.width, wanted.size.height, wanted.apart_deg, wanted.rate_hz,
         wanted.with_exact_depth ? "exact" : "own", wanted.share);
     std::vector<double> motion_ms, agree_ms, between_ms;
     Errors all_rigs[ways], all_camera[ways];
-    for (const std::uint64_t set : wanted.sets) {
-        VirtualStage stage(library, set), truth_stage(library, set);
+    for (const std::uint64_t scene : wanted.scenes) {
+        VirtualStage stage(library, scene), truth_stage(library, scene);
         MatchingRig::Settings settings;
         settings.size = wanted.size;
         settings.disparities = wanted.size.width / 10;
@@ -219,7 +220,7 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
                                              between[blended][r].colour, between[moved][r].colour},
                         row);
                     write_colour_image(std::filesystem::path(wanted.pictures) /
-                                           fmt::format("set{}_{}_rig.png", set, moment),
+                                           fmt::format("scene{}_{}_rig.png", scene, moment),
                                        ColourImage(row));
                 }
             }
@@ -242,12 +243,12 @@ void measure(const ShaderLibrary& library, const Wanted& wanted) {
                 cv::Mat row;
                 cv::hconcat(pictures, row);
                 write_colour_image(std::filesystem::path(wanted.pictures) /
-                                       fmt::format("set{}_{}_camera.png", set, moment),
+                                       fmt::format("scene{}_{}_camera.png", scene, moment),
                                    ColourImage(row));
             }
         }
         for (int way = 0; way < ways; ++way)
-            std::cout << fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", set,
+            std::cout << fmt::format("| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n", scene,
                                      names[way], at_rigs[way].psnr_db(0), at_rigs[way].psnr_db(1),
                                      wanted.with_camera ? at_camera[way].psnr_db(0) : 0,
                                      wanted.with_camera ? at_camera[way].psnr_db(1) : 0);
@@ -276,7 +277,7 @@ int main(int argc, char** argv) {
     Wanted wanted;
     std::string size = "320x240";
     bool without_camera = false;
-    app.add_option("--sets", wanted.sets, "0: the demo's")->delimiter(',');
+    app.add_option("--scenes", wanted.scenes, "0: the demo's")->delimiter(',');
     app.add_option("--rig-size", size, "Of the rigs' and of the virtual pictures");
     app.add_option("--rate", wanted.rate_hz, "Pulses a second")->capture_default_str();
     app.add_option("--apart", wanted.apart_deg, "Degrees between two rigs");
@@ -284,7 +285,7 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0.0, 1.0))
         ->capture_default_str();
     app.add_option("--start", wanted.start_s, "In the stage's loop of 24 s");
-    app.add_option("--learn", wanted.learning_s, "Before it, from which the set is learnt")
+    app.add_option("--learn", wanted.learning_s, "Before it, from which the background is learnt")
         ->check(CLI::Range(0.0, 24.0))
         ->capture_default_str();
     app.add_option("--moments", wanted.moments, "That are looked at, 0.7 s apart");

@@ -33,7 +33,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto moment = 10s;
-/// Instants before it, from which sets are learnt.
+/// Instants before it, from which backgrounds are learnt.
 constexpr auto between_instants = 500ms;
 constexpr int instants_before = 16;
 const cv::Size picture_size(320, 240);

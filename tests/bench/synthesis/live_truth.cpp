@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
         app.add_subcommand("stepped", "Every instant is waited for, at a fixed level");
     steps->add_option("--synth", stepped.synthesisers)->delimiter(',')->capture_default_str();
     steps
-        ->add_option("--sets", stepped.sets,
+        ->add_option("--scenes", stepped.scenes,
                      "0: the demo's; with 1000000 added, performers wear plain colours")
         ->delimiter(',');
     steps->add_option("--rig-size", size, "Of the rigs' and of the virtual pictures");
@@ -55,8 +55,8 @@ int main(int argc, char** argv) {
     std::vector<std::string> exact_in;
     steps->add_option("--exact-in", exact_in, "Regions in which depth is the stage's")
         ->delimiter(',');
-    steps->add_flag("--known-set", stepped.knows_set,
-                    "Begin with a set that was learnt over the stage's loop");
+    steps->add_flag("--known-background", stepped.knows_background,
+                    "Begin with a background that was learnt over the stage's loop");
     steps->add_flag("--regions", stepped.with_regions,
                     "Per cent of the pixels and of the squared error, by region");
     bool without_times = false;
@@ -66,16 +66,19 @@ int main(int argc, char** argv) {
                      "Flight file: one camera of 480x270 flies its move, and none stands still")
         ->check(CLI::ExistingFile);
     steps->add_option("--pictures", stepped.pictures, "Folder for pictures beside their truth");
-    BackgroundTruth wanted_set;
-    CLI::App* set = app.add_subcommand("set", "How accurate the depth of a background is");
-    set->add_option("--sets", wanted_set.sets, "0: the demo's")->delimiter(',');
-    set->add_option("--rig-size", size, "Of the rigs");
-    set->add_option("--preset", preset, "Of the rigs' matchers");
-    set->add_option("--disparities", wanted_set.rigs.disparities);
-    set->add_option("--apart", wanted_set.apart_deg, "Degrees between two rigs");
-    set->add_option("--rate", wanted_set.rate_hz, "Instants a second");
-    set->add_option("--seconds", wanted_set.seconds, "That the set is learnt for");
-    set->add_option("--pictures", wanted_set.pictures, "Folder for pictures of the error");
+    BackgroundTruth wanted_background;
+    CLI::App* background =
+        app.add_subcommand("background", "How accurate the depth of a background is");
+    background->add_option("--scenes", wanted_background.scenes, "0: the demo's")->delimiter(',');
+    background->add_option("--rig-size", size, "Of the rigs");
+    background->add_option("--preset", preset, "Of the rigs' matchers");
+    background->add_option("--disparities", wanted_background.rigs.disparities);
+    background->add_option("--apart", wanted_background.apart_deg, "Degrees between two rigs");
+    background->add_option("--rate", wanted_background.rate_hz, "Instants a second");
+    background->add_option("--seconds", wanted_background.seconds,
+                           "That the background is learnt for");
+    background->add_option("--pictures", wanted_background.pictures,
+                           "Folder for pictures of the error");
     PlayedTruth played;
     CLI::App* play = app.add_subcommand("live", "The demo as it is, governed, in real time");
     play->add_option("--rate", played.rate_hz, "Pictures a second")->check(CLI::Range(1.0, 240.0));
@@ -97,10 +100,10 @@ int main(int argc, char** argv) {
         }
         EglContext context;
         const ShaderLibrary shaders;
-        if (set->parsed()) {
-            wanted_set.rigs.size = size_of(size);
-            wanted_set.rigs.preset = parse_preset(preset);
-            std::cout << set_table(shaders, wanted_set);
+        if (background->parsed()) {
+            wanted_background.rigs.size = size_of(size);
+            wanted_background.rigs.preset = parse_preset(preset);
+            std::cout << background_table(shaders, wanted_background);
             return 0;
         }
         stepped.with_times = !without_times;

@@ -23,8 +23,8 @@ constexpr double noise_sigma = 1;
 /// The first of them settle what is filtered along time.
 constexpr std::uint64_t instants = 26, settled_after = 18;
 
-std::string row(const ShaderLibrary& library, std::uint64_t set, double apart_deg) {
-    VirtualStage stage(library, set);
+std::string row(const ShaderLibrary& library, std::uint64_t scene, double apart_deg) {
+    VirtualStage stage(library, scene);
     std::vector<std::unique_ptr<MatchingRig>> rigs;
     for (const double place : {-1.5, -0.5, 0.5, 1.5})
         rigs.push_back(std::make_unique<MatchingRig>(library, place * apart_deg, rigs.size() + 1,
@@ -52,7 +52,7 @@ std::string row(const ShaderLibrary& library, std::uint64_t set, double apart_de
         add_sensor_noise(camera.back(), {.sigma = noise_sigma, .seed = 99}, 0, instant);
     }
     const cv::Mat1b everywhere(size.height, size.width, uchar{255});
-    const std::string name = set == 0 ? "the demo's" : fmt::format("generated {}", set);
+    const std::string name = scene == 0 ? "the demo's" : fmt::format("generated {}", scene);
     std::string text = fmt::format("| {} | {:g} |", name, apart_deg);
     for (const ColourImage& picture : pictures)
         text += fmt::format(" {:.2f} | {:.3f} |", psnr_db(picture, truth), ssim(picture, truth));
@@ -73,8 +73,8 @@ std::string own_matching_table(const ShaderLibrary& library) {
         "| scene | rigs apart (degrees) | exact: PSNR dB | SSIM | own: PSNR dB | SSIM | coverage | "
         "flicker |\n| --- | --- | --- | --- | --- | --- | --- | --- |\n",
         size.width, size.height, noise_sigma);
-    for (const std::uint64_t set : {0u, 1u, 2u, 4u, 5u, 6u})
-        for (const double apart_deg : {20, 40}) text += row(library, set, apart_deg);
+    for (const std::uint64_t scene : {0u, 1u, 2u, 4u, 5u, 6u})
+        for (const double apart_deg : {20, 40}) text += row(library, scene, apart_deg);
     return text;
 }
 

@@ -98,11 +98,11 @@ class RegionalError {
 
 /// One synthesiser, looked at from several cameras.
 struct Measured {
-    explicit Measured(double noise_sigma) : set(noise_sigma), performers(noise_sigma) {}
+    explicit Measured(double noise_sigma) : background(noise_sigma), performers(noise_sigma) {}
 
     Fidelity fidelity;
     RegionalError regions;
-    Flicker set, performers;
+    Flicker background, performers;
     double edge_error = 0, set_psnr_db = 0, foreground_psnr_db = 0;
     ImmersiveMetrics whole, foreground;  ///< sums
     int edge_pictures = 0;
@@ -129,7 +129,7 @@ void write_beside(const std::string& folder, const std::string& name, const Colo
     write_colour_image(std::filesystem::path(folder) / (name + ".png"), ColourImage(both));
 }
 
-/// What is learnt of the set while performers walk a whole loop of the stage.
+/// What is learnt of the background while performers walk a whole loop of the stage.
 Background set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrary& library,
                          VirtualStage& stage, std::span<const std::unique_ptr<MatchingRig>> rigs,
                          bool with_own_depth) {
@@ -137,7 +137,8 @@ Background set_of_a_loop(const SynthesiserEntry& synthesiser, const ShaderLibrar
     // Told to be closer in time than they are, so that they make one mean.
     constexpr double told_dt_s = 0.2;
     const std::unique_ptr<InstantPreparer> preparer = synthesiser.make_preparer(library);
-    if (!preparer->background_access()) fail("the synthesiser {} learns no set", synthesiser.name);
+    if (!preparer->background_access())
+        fail("the synthesiser {} learns no background", synthesiser.name);
     std::uint64_t instant = 1'000'000;  // noise of its own
     for (std::chrono::milliseconds time{0}; time < loop; time += step) {
         std::vector<DepthView> views;
@@ -195,8 +196,8 @@ class Filming {
     std::vector<TruthRegions> regions_;
 };
 
-std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t set) {
-    VirtualStage stage(library, set), truth_stage(library, set);
+std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::uint64_t scene) {
+    VirtualStage stage(library, scene), truth_stage(library, scene);
     const std::vector<std::unique_ptr<MatchingRig>> rigs = rigs_of(library, wanted);
     const Filming filming(rigs, wanted, truth_stage);
     std::vector<StillCamera> cameras;
@@ -222,7 +223,7 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
                            Measured(wanted.rigs.noise_sigma)});
     }
 
-    if (wanted.knows_set) {
+    if (wanted.knows_background) {
         const auto learnt = std::make_shared<const Background>(
             set_of_a_loop(find_synthesiser(wanted.synthesisers.front()), library, stage, rigs,
                           !wanted.with_exact_depth));
@@ -279,15 +280,15 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
                     const auto& [picture_before, truth_before] = found->second;
                     const cv::Mat1b moving = truth.performers | truth_before.performers;
                     const cv::Mat1b still = ~moving;
-                    measured.set.add(picture_before, truth_before.colour, picture, truth.colour,
-                                     still);
+                    measured.background.add(picture_before, truth_before.colour, picture,
+                                            truth.colour, still);
                     measured.performers.add(picture_before, truth_before.colour, picture,
                                             truth.colour, moving);
                 }
                 measured.before[c] = {picture, truth};
                 if (k + 1 == instants && !wanted.pictures.empty())
                     write_beside(wanted.pictures,
-                                 fmt::format("{}_set{}_{}", wanted.synthesisers[r], set, c),
+                                 fmt::format("{}_scene{}_{}", wanted.synthesisers[r], scene, c),
                                  picture, truth.colour);
             }
         }
@@ -298,11 +299,11 @@ std::string rows(const ShaderLibrary& library, const SteppedTruth& wanted, std::
         text += fmt::format(
             "| {} | {} | {:.2f} | {:.2f} | {:.2f} | {:.3f} | {:.1f} % | {:.1f} | {:.2f} | {:.2f} | "
             "{:.2f} / {:.3f} | {:.2f} / {:.3f} |",
-            wanted.synthesisers[r], set, m.fidelity.psnr_db(),
+            wanted.synthesisers[r], scene, m.fidelity.psnr_db(),
             m.set_psnr_db / std::max(m.edge_pictures, 1),
             m.foreground_psnr_db / std::max(m.edge_pictures, 1), m.fidelity.ssim(),
             100 * m.fidelity.outliers(), m.edge_error / std::max(m.edge_pictures, 1),
-            m.set.against_a_camera(), m.performers.against_a_camera(),
+            m.background.against_a_camera(), m.performers.against_a_camera(),
             m.whole.iv_psnr_db / m.fidelity.pictures(), m.whole.iv_ssim / m.fidelity.pictures(),
             m.foreground.iv_psnr_db / std::max(m.edge_pictures, 1),
             m.foreground.iv_ssim / std::max(m.edge_pictures, 1));
@@ -396,7 +397,7 @@ std::string flown_table(const ShaderLibrary& library, const SteppedTruth& wanted
         wanted.with_exact_depth ? "exact" : "own", wanted.rate_hz, wanted.prepare_level,
         wanted.render_level, wanted.flown_size.width, wanted.flown_size.height, wanted.settling_s,
         wanted.measured_s, region_names(wanted), region_rules(wanted));
-    for (const std::uint64_t scene : wanted.sets) text += flown_rows(library, wanted, scene);
+    for (const std::uint64_t scene : wanted.scenes) text += flown_rows(library, wanted, scene);
     return text;
 }
 
@@ -414,13 +415,14 @@ std::string stepped_table(const ShaderLibrary& library, const SteppedTruth& want
         "performers |{}{}\n"
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |{}{}\n",
         wanted.rigs.size.width, wanted.rigs.size.height, wanted.apart_deg, wanted.rigs.noise_sigma,
-        wanted.with_exact_depth ? "exact" : "own", wanted.knows_set ? ", a set learnt before" : "",
-        wanted.rate_hz, wanted.prepare_level, wanted.render_level, fmt::join(wanted.cameras, ", "),
+        wanted.with_exact_depth ? "exact" : "own",
+        wanted.knows_background ? ", a background learnt before" : "", wanted.rate_hz,
+        wanted.prepare_level, wanted.render_level, fmt::join(wanted.cameras, ", "),
         wanted.settling_s, wanted.measured_s,
         wanted.with_times ? " Times are of the processor, milliseconds an instant or picture." : "",
         wanted.with_times ? " take | prepare | render |" : "", region_names(wanted),
         wanted.with_times ? " --- | --- | --- |" : "", region_rules(wanted));
-    for (const std::uint64_t set : wanted.sets) text += rows(library, wanted, set);
+    for (const std::uint64_t scene : wanted.scenes) text += rows(library, wanted, scene);
     return text;
 }
 

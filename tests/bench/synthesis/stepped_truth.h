@@ -12,7 +12,7 @@ namespace vantage {
 /// Films of the moving virtual stage, an instant after the other, each waited for.
 struct SteppedTruth {
     std::vector<std::string> synthesisers{"fused"};
-    std::vector<std::uint64_t> sets{0};
+    std::vector<std::uint64_t> scenes{0};
     MatchingRig::Settings rigs{.disparities = 32, .preset = MatchPreset::balanced};
     double apart_deg = 20, rate_hz = 5, settling_s = 3, measured_s = 1;
     double start_s = 2;  ///< in the stage's loop
@@ -22,7 +22,7 @@ struct SteppedTruth {
     int prepare_level = 0, render_level = 0;
     bool with_exact_depth = false;
     std::vector<TruthRegion> exact_in;  ///< where rigs have the stage's depth, not their matchers'
-    bool knows_set = false;             ///< begins with what a loop of the stage tells of its set
+    bool knows_background = false;      ///< begins with what a loop of the stage tells of it
     bool with_regions = false;          ///< shares of pixels and of squared error, by TruthRegion
     bool with_times = true;             ///< of the processor
     /// A flight file: one camera of `flown_size` flies its move, and no camera stands still.

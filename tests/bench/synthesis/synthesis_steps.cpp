@@ -26,7 +26,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto moment = 10s;
-/// Instants from which the set is learnt.
+/// Instants from which the background is learnt.
 constexpr auto between_instants = 500ms;
 constexpr int instants = 16;
 constexpr double apart_deg = 20;
@@ -46,14 +46,14 @@ ColourImage depth_picture(const cv::Mat& depth_m) {
     return colour_map_disparity(per_m, far_per_m, near_per_m);
 }
 
-/// Performers as they stand before the set.
+/// Performers as they stand before the background.
 cv::Mat1f depth_of(const InstantRig& rig) {
-    cv::Mat1f set, performers;
-    cv::extractChannel(rig.surface->depth().download(), set, 0);
-    if (!rig.boundary) return set;
+    cv::Mat1f depth_m, performers;
+    cv::extractChannel(rig.surface->depth().download(), depth_m, 0);
+    if (!rig.boundary) return depth_m;
     cv::extractChannel(rig.boundary->depth().download(), performers, 0);
-    performers.copyTo(set, performers > 0);
-    return set;
+    performers.copyTo(depth_m, performers > 0);
+    return depth_m;
 }
 
 ColourImage grey_picture(const cv::Mat& share) {

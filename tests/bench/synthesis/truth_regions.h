@@ -14,9 +14,9 @@ namespace vantage {
 enum class TruthRegion {
     performers,  ///< within them
     edges,       ///< of performers, a band of 5 px
-    beside,      ///< the set up to 12 px beside them
-    thin,        ///< what of the set an opening of 7x7 px takes away, and 1 px around
-    rims,        ///< the set's depth edges, a band of 5 px
+    beside,      ///< the background up to 12 px beside them
+    thin,        ///< what of the background an opening of 7x7 px takes away, and 1 px around
+    rims,        ///< the background's depth edges, a band of 5 px
     surfaces     ///< what is left
 };
 inline constexpr std::array all_truth_regions{TruthRegion::performers, TruthRegion::edges,
@@ -32,7 +32,7 @@ class TruthRegions {
   public:
     TruthRegions(VirtualStage& stage, const StageCamera& camera);
 
-    /// The set's exact depth.
+    /// The background's exact depth.
     const DepthImage& background_depth_m() const { return background_depth_m_; }
     /// Where performers are, by this instant's exact depth.
     cv::Mat1b performers(const DepthImage& depth_m) const;

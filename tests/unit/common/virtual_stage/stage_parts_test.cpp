@@ -268,13 +268,13 @@ class EveryScene : public testing::TestWithParam<std::uint64_t> {
   protected:
     StageScene scene_ = make_scene(GetParam());
 };
-INSTANTIATE_TEST_SUITE_P(Sets, EveryScene, testing::Range<std::uint64_t>(0, 13));
+INSTANTIATE_TEST_SUITE_P(Scenes, EveryScene, testing::Range<std::uint64_t>(0, 13));
 
 TEST_P(EveryScene, PerformersNeverTouchSceneryOrEachOther) {
-    constexpr int the_set = -1, nobody = 0;
+    constexpr int the_stage = -1, nobody = 0;
     Cells cells;
     for_each_background_point(scene_.mesh, 2.6f, 0.03f, [&](const Vector3f& p) {
-        if (const auto cell = Cells::at(p)) cells[*cell] = the_set;
+        if (const auto cell = Cells::at(p)) cells[*cell] = the_stage;
     });
     // By bone, the vertices of everyone.
     std::vector<std::vector<Vector3f>> of_bone(1 + scene_.performers.size() * bones_of_performer);
@@ -293,8 +293,8 @@ TEST_P(EveryScene, PerformersNeverTouchSceneryOrEachOther) {
                     int& holder = cells[*cell];
                     const int who = static_cast<int>(performer) + 1;
                     if (holder == nobody) taken.push_back(*cell);
-                    if (holder == the_set) ++touched[0];
-                    if (holder != nobody && holder != the_set && holder != who) ++touched[1];
+                    if (holder == the_stage) ++touched[0];
+                    if (holder != nobody && holder != the_stage && holder != who) ++touched[1];
                     if (holder == nobody) holder = who;
                 }
         }
