@@ -13,7 +13,8 @@ namespace vantage {
 namespace {
 
 constexpr int width_px = 161, height_px = 121;
-/// Instants until what stands still is the background: more than half a second, where no times are told.
+/// Instants until what stands still is the background: more than half a second, where no times are
+/// told.
 constexpr int long_enough = 16;
 
 /// A patterned wall and, before it, a square around square_x_m, which walks.

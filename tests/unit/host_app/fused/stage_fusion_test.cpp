@@ -66,7 +66,8 @@ class StageFusionTest : public testing::TestWithParam<Reached> {
     std::unique_ptr<Synthesiser> synthesiser_ = make_synthesiser(GetParam().synthesiser, shaders_);
 };
 
-/// Views 15 degrees from the nearest rigs, of a background full of fine texture, gloss and thin rails.
+/// Views 15 degrees from the nearest rigs, of a background full of fine texture, gloss and thin
+/// rails.
 TEST_P(StageFusionTest, MeetsTheStageBetweenFourRigsWithExactDepth) {
     const DepthView views[] = {film(stage_, -45), film(stage_, -15), film(stage_, 15),
                                film(stage_, 45)};
